@@ -1,0 +1,49 @@
+// A closed convex polyhedron and its exact mass properties.
+#pragma once
+#include <vector>
+
+#include "dem/types.h"
+
+namespace trackbed::dem {
+
+/// Vertices [m] and faces; each face lists its vertices counter-clockwise seen from outside.
+/// Coplanar facets are one face.
+struct Polyhedron {
+  std::vector<Vec3> vertices;
+  std::vector<std::vector<int>> faces;
+};
+
+/// Of a body of density 1: volume [m3], centroid [m], inertia tensor about the centroid [m5].
+struct MassProperties {
+  double volume = 0;
+  Vec3 centroid = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+};
+
+/// Exact, by the divergence theorem over the faces (signed tetrahedra from an inner point).
+/// Throws InputError when the volume is not positive (open, inverted or flat solid, NaN).
+MassProperties mass_properties(const Polyhedron&);
+
+/// Box with the given full edge lengths [m], centred at the origin.
+Polyhedron make_box(const Vec3& edges);
+
+/// Convex hull of points [m] (CGAL), coplanar facets merged into one face.
+/// Throws InputError when the points are coplanar or not finite.
+Polyhedron convex_hull(const std::vector<Vec3>& points);
+
+/// The shape moved so that its centroid is the origin and its principal axes of inertia are the
+/// coordinate axes (right-handed, moments ascending); `inertia` holds the principal moments at
+/// density 1 [m5]. What every grain and rigid body is stored as.
+struct GrainShape {
+  Polyhedron body;
+  double volume = 0;                ///< [m3]
+  Vec3 inertia = Vec3::Zero();      ///< principal moments at density 1 [m5]
+  double radius = 0;                ///< of the bounding sphere about the centroid [m]
+  double sieve_size = 0;            ///< least square hole it passes [m]; 0 = not sized
+  // Pose of this principal frame in the frame of the polyhedron it was made from.
+  Vec3 origin = Vec3::Zero();
+  Quat turn = Quat::Identity();
+};
+GrainShape make_grain_shape(const Polyhedron&);
+
+}  // namespace trackbed::dem
