@@ -27,7 +27,8 @@ MassProperties mass_properties(const Polyhedron&);
 /// Box with the given full edge lengths [m], centred at the origin.
 Polyhedron make_box(const Vec3& edges);
 
-/// Convex hull of points [m] (CGAL), coplanar facets merged into one face.
+/// Convex hull of points [m] (CGAL). Points closer than 1e-9 of the size are one; facets coplanar
+/// within that tolerance become one face, and vertices inside a face or an edge are dropped.
 /// Throws InputError when the points are coplanar or not finite.
 Polyhedron convex_hull(const std::vector<Vec3>& points);
 
@@ -36,10 +37,10 @@ Polyhedron convex_hull(const std::vector<Vec3>& points);
 /// density 1 [m5]. What every grain and rigid body is stored as.
 struct GrainShape {
   Polyhedron body;
-  double volume = 0;                ///< [m3]
-  Vec3 inertia = Vec3::Zero();      ///< principal moments at density 1 [m5]
-  double radius = 0;                ///< of the bounding sphere about the centroid [m]
-  double sieve_size = 0;            ///< least square hole it passes [m]; 0 = not sized
+  double volume = 0;            ///< [m3]
+  Vec3 inertia = Vec3::Zero();  ///< principal moments at density 1 [m5]
+  double radius = 0;            ///< of the bounding sphere about the centroid [m]
+  double sieve_size = 0;        ///< least square hole it passes [m]; 0 = not sized
   // Pose of this principal frame in the frame of the polyhedron it was made from.
   Vec3 origin = Vec3::Zero();
   Quat turn = Quat::Identity();
