@@ -7,11 +7,11 @@
 
 namespace trackbed {
 
-enum class ParameterKind { number, integer, boolean, choice, text };
+enum class ParameterKind { number, integer, boolean, choice, text, numbers };
 
 /// One parameter: `section` is its path in the file ("Contact", "Subgrade/Layers"), `fallback`
 /// its default as written in a file, `unit` SI or "-", [least, most] its range (numbers and
-/// integers), `choices` the allowed words (choice).
+/// integers, each of `numbers`, a comma-separated list), `choices` the allowed words (choice).
 struct Parameter {
   std::string section, key, fallback, unit, meaning;
   ParameterKind kind = ParameterKind::number;

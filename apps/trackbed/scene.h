@@ -3,6 +3,7 @@
 // parameters.cc, in the same order as here.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,8 @@ struct Scene {
   std::string title;
   std::string name;            ///< file name without ending: names the results folder
   std::string file;
+  std::map<std::string, std::string> values;  ///< every parameter as used: "Section/Key" to text
+  std::string resolved;        ///< the same as a parameter file (scene.resolved.prm)
   ContainerScene container;
   GrainScene grains;
   GradationScene gradation;

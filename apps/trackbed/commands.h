@@ -1,0 +1,65 @@
+// The subcommands of `trackbed`, one file each. A command returns the exit code; wrong input
+// leaves it as InputError (exit 2), a failed run as RunError (exit 1).
+#pragma once
+#include <string>
+#include <vector>
+
+namespace trackbed::apps {
+
+struct RunOptions {
+  std::string scene;             ///< parameter file
+  std::string output;            ///< folder; empty = results/<scene>
+  std::vector<std::string> set;  ///< "Section/Key=value"
+  int threads = 0;               ///< 0 = all cores
+  bool resume = false;
+  bool overwrite = false;
+};
+
+struct CheckOptions {
+  std::string scene;
+  std::vector<std::string> set;
+  int threads = 0;
+};
+
+struct PackOptions {
+  std::string scene;
+  std::string output;  ///< folder; empty = results/<scene>
+  std::vector<std::string> set;
+  int threads = 0;
+  bool overwrite = false;
+};
+
+struct CompareOptions {
+  std::string scene;
+  std::string output;  ///< folder; empty = results/<scene>_compare
+  std::vector<std::string> set;
+  int threads = 0;
+  int packings = 1;
+  bool resume = false;
+  bool overwrite = false;
+};
+
+struct ParametersOptions {
+  std::string format = "prm";  ///< prm | json | markdown
+};
+
+struct SieveOptions {
+  std::vector<std::string> grains;  ///< OFF, OBJ, STL files
+  std::string method = "exact";     ///< a name, or "all"
+  std::string unit = "mm";          ///< of the files' coordinates: mm, cm or m
+  std::string curve;                ///< name of a standard's curve to compare with; empty = none
+};
+
+struct ReportOptions {
+  std::string folder;  ///< of a run or a comparison
+};
+
+int run_command(const RunOptions&);
+int check_command(const CheckOptions&);
+int pack_command(const PackOptions&);
+int compare_command(const CompareOptions&);
+int parameters_command(const ParametersOptions&);
+int sieve_command(const SieveOptions&);
+int report_command(const ReportOptions&);
+
+}  // namespace trackbed::apps
