@@ -1,0 +1,64 @@
+// Pairs of bodies that touch or may soon touch: history that lives on from step to step, and the
+// results of the last evaluation. Structure of arrays, sorted by (a, b), a < b.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dem/contact/overlap.h"
+#include "dem/types.h"
+
+namespace trackbed::dem {
+
+struct Pairs {
+  std::vector<int> a, b;
+
+  // History. `wake`: the pair is apart until travel[a] + travel[b] (Candidates) passes it [m].
+  std::vector<Vec3> axis;                  ///< direction a to b of least separation, any length
+  std::vector<double> wake;                ///< [m]
+  std::vector<Vec3> friction;              ///< tangential force on a [N]
+  std::vector<double> friction_stiffness;  ///< k_t of the last step [N/m]; 0 = was not touching
+  std::vector<Vec3> arm_a, arm_b;          ///< contact point less centre of a, of b [m]
+
+  // Results of the last evaluation; zero for a pair that does not touch.
+  std::vector<std::uint8_t> touching;
+  std::vector<Vec3> force;         ///< on a, normal + friction [N]; on b its negative
+  std::vector<Vec3> couple;        ///< moment on a about the contact point [N m]; on b its negative
+  std::vector<Vec3> normal_force;  ///< elastic part of `force` [N]
+  std::vector<double> energy;      ///< stored in the normal contact [J]
+  std::vector<double> friction_energy;  ///< stored in the tangential spring [J]
+  std::vector<double> friction_loss;    ///< dissipated in this step [J]
+  std::vector<double> area;             ///< size of the overlap's vector area [m2]
+  std::vector<double> depth;            ///< extent of the overlap along the frame's normal [m]
+  std::vector<double> stiffness;        ///< normal [N/m]
+
+  // Which pairs belong to body i: incident[first[i] .. first[i+1]), ascending; an entry is the
+  // pair's index p where i is a, and ~p where i is b. Follows from a, b (index_bodies).
+  std::vector<int> first, incident;
+
+  std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
+
+  int size() const { return static_cast<int>(a.size()); }
+  void resize(int pairs);         ///< new entries are zero
+  void index_bodies(int bodies);  ///< rebuilds first, incident
+};
+
+/// Calls f(name, array) for each array that a checkpoint must hold so that the next step is
+/// bitwise the same; results that the next evaluation overwrites are included because output may
+/// read them before. After reading back: index_bodies.
+template <class P, class F>  // P: Pairs or const Pairs
+void for_each_array(P& p, F&& f) {
+  f("a", p.a), f("b", p.b);
+  f("axis", p.axis), f("wake", p.wake);
+  f("friction", p.friction), f("friction_stiffness", p.friction_stiffness);
+  f("arm_a", p.arm_a), f("arm_b", p.arm_b);
+  f("touching", p.touching);
+  f("force", p.force), f("couple", p.couple), f("normal_force", p.normal_force);
+  f("energy", p.energy), f("friction_energy", p.friction_energy);
+  f("friction_loss", p.friction_loss);
+  f("area", p.area), f("depth", p.depth), f("stiffness", p.stiffness);
+}
+
+/// Number of touching pairs.
+int count_contacts(const Pairs&);
+
+}  // namespace trackbed::dem
