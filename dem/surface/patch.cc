@@ -125,12 +125,7 @@ SurfacePatch make_patch(const std::string& name, int material, const std::vector
   return patch;
 }
 
-void place_nodes(SurfacePatch& patch, const std::vector<Vec3>& position,
-                 const std::vector<Vec3>& velocity) {
-  for (int i = 0; i < patch.carried; ++i) {
-    patch.node[i] = position[i];
-    patch.velocity[i] = velocity[i];
-  }
+void move_skirt(SurfacePatch& patch) {
   for (std::size_t i = patch.carried; i < patch.node.size(); ++i) {
     patch.node[i] = patch.node[patch.master[i]] + patch.offset[i];
     patch.velocity[i] = patch.velocity[patch.master[i]];

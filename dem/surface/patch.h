@@ -26,7 +26,7 @@ struct SurfacePatch {
   std::vector<Vec3> offset;  ///< of a skirt node from its master [m]
   int carried = 0;           ///< nodes [0, carried) belong to the carrier, the rest is skirt
 
-  // Motion, set by the carrier each step through place_nodes().
+  // Motion, set by the carrier each step, then move_skirt().
   std::vector<Vec3> node;      ///< position [m]
   std::vector<Vec3> velocity;  ///< mean over the step [m/s]
 
@@ -47,8 +47,7 @@ SurfacePatch make_patch(const std::string& name, int material, const std::vector
                         const std::vector<std::array<int, 4>>& quads, double shell_depth,
                         double skirt, const Vec3& period);
 
-/// Moves the nodes: `position` and `velocity` of the carried nodes; the skirt follows.
-void place_nodes(SurfacePatch&, const std::vector<Vec3>& position,
-                 const std::vector<Vec3>& velocity);
+/// Brings the skirt to its border nodes, after the carrier moved node [0, carried) and velocity.
+void move_skirt(SurfacePatch&);
 
 }  // namespace trackbed::dem

@@ -1,0 +1,35 @@
+// The energy ledger of a run: where every joule of the loads' work went. Stored energies are
+// functions of the state, computed afresh; work and dissipation are sums over the steps. So
+//   closure = (stored now - stored at start) - work + dissipated + transfer error
+// is a true test of the run: it is zero only if contacts, motion and structures conserve energy.
+#pragma once
+
+namespace trackbed::coupling {
+
+/// Sums since the start of the ledger [J].
+struct EnergyFlows {
+  double work = 0;                 ///< of outer loads, on bodies and on structures
+  double prescribed = 0;           ///< of what holds prescribed motions
+  double friction = 0;             ///< dissipated
+  double local_damping = 0;        ///< dissipated
+  double structure_damping = 0;    ///< dissipated, Rayleigh and dashpots
+  double structure_numerical = 0;  ///< taken out by the structures' time integration
+  double transfer_error = 0;  ///< work of the grains on the predicted surface less the work the
+                              ///< structure received: energy lost (+) or made (-) by prediction
+};
+
+/// Stored in the state [J].
+struct EnergyStores {
+  double kinetic = 0, gravity = 0;
+  double contact = 0;    ///< normal and tangential, all contacts
+  double structure = 0;  ///< strain + kinetic + gravity of the structures
+  double total() const { return kinetic + gravity + contact + structure; }
+};
+
+/// What does not add up [J]; > 0: energy was created.
+inline double closure(const EnergyStores& start, const EnergyStores& now, const EnergyFlows& f) {
+  return now.total() - start.total() - f.work - f.prescribed + f.friction + f.local_damping +
+         f.structure_damping + f.structure_numerical + f.transfer_error;
+}
+
+}  // namespace trackbed::coupling

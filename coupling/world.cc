@@ -1,0 +1,79 @@
+#include "coupling/world.h"
+
+namespace trackbed::coupling {
+
+using dem::Vec3;
+
+Surface make_surface(const std::string& name, int material, double shell_depth, double skirt,
+                     const Vec3& period, std::unique_ptr<fem::Structure> structure) {
+  const fem::SurfaceMesh& mesh = structure->surface();
+  std::vector<Vec3> nodes;
+  for (const auto& p : mesh.nodes) nodes.push_back({p[0], p[1], p[2]});
+  Surface s;
+  s.patch = dem::make_patch(name, material, nodes, mesh.quads, shell_depth, skirt, period);
+  structure->motion(s.displacement, s.velocity);
+  for (int i = 0; i < s.patch.carried; ++i)
+    s.patch.node[i] += Vec3(s.displacement[i][0], s.displacement[i][1], s.displacement[i][2]);
+  dem::move_skirt(s.patch);
+  s.last_force = s.patch.force;
+  s.forces.resize(nodes.size());
+  s.structure = std::move(structure);
+  return s;
+}
+
+EnergyStores stores(const World& w, const Vec3& gravity) {
+  EnergyStores e;
+  const dem::Bodies& b = w.bodies;
+  for (int i = 0; i < b.size(); ++i) {
+    if (b.freedom[i] == dem::kFixed) continue;
+    e.kinetic += 0.5 * b.mass[i] * b.v[i].squaredNorm() + 0.5 * b.L[i].dot(b.omega[i]);
+    e.gravity -= b.mass[i] * gravity.dot(b.x[i]);
+  }
+  for (int p = 0; p < w.pairs.size(); ++p)
+    e.contact += w.pairs.energy[p] + w.pairs.friction_energy[p];
+  for (const Surface& s : w.surfaces) {
+    for (int k = 0; k < s.contacts.size(); ++k)
+      e.contact += s.contacts.energy[k] + s.contacts.friction_energy[k];
+    const fem::StructureEnergy f = s.structure->energy();
+    e.structure += f.kinetic + f.strain + f.gravity;
+  }
+  return e;
+}
+
+EnergyFlows flows(const World& w) {
+  EnergyFlows f = w.flows;
+  for (const Surface& s : w.surfaces) {
+    const fem::StructureEnergy e = s.structure->energy();
+    f.work += e.work_loads - s.start.work_loads;
+    f.structure_damping += e.dissipated_damping - s.start.dissipated_damping;
+    f.structure_numerical += e.numerical - s.start.numerical;
+    f.transfer_error += s.work_predicted - (e.work_surface - s.start.work_surface);
+  }
+  return f;
+}
+
+void open_ledger(World& w, const Vec3& gravity) {
+  w.flows = {};
+  for (Surface& s : w.surfaces) {
+    s.work_predicted = 0;
+    s.start = s.structure->energy();
+  }
+  w.start = stores(w, gravity);
+}
+
+int count_contacts(const World& w) {
+  int n = dem::count_contacts(w.pairs);
+  for (const Surface& s : w.surfaces) n += dem::count_contacts(s.contacts);
+  return n;
+}
+
+double coordination(const World& w) {
+  const int grains = w.bodies.grains;
+  long ends = 0;
+  for (int p = 0; p < w.pairs.size(); ++p)
+    if (w.pairs.touching[p]) ends += (w.pairs.a[p] < grains) + (w.pairs.b[p] < grains);
+  for (const Surface& s : w.surfaces) ends += dem::count_contacts(s.contacts);
+  return grains ? static_cast<double>(ends) / grains : 0;
+}
+
+}  // namespace trackbed::coupling

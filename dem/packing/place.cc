@@ -1,0 +1,128 @@
+#include "dem/packing/place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "dem/packing/random.h"
+
+namespace trackbed::dem {
+namespace {
+
+// Columns of the plan view, each with the spheres that reach over it.
+class Plan {
+ public:
+  Plan(const PlacementSpace& space, double largest) : space_(space), reach_(largest) {
+    for (int k = 0; k < 2; ++k) {
+      const double length = space.high[k] - space.low[k];
+      cells_[k] = std::max(1, static_cast<int>(length / (2 * largest)));
+      width_[k] = length / cells_[k];
+    }
+    columns_.resize(cells_[0] * cells_[1]);
+  }
+
+  void add(const Vec3& x, double radius) {
+    columns_[column(cell(x, 0), cell(x, 1))].push_back(static_cast<int>(centre_.size()));
+    centre_.push_back(x);
+    radius_.push_back(radius);
+  }
+
+  // Lowest height at which a sphere over (x, y) rests on what is there, or on the floor.
+  double rest(double x, double y, double radius) const {
+    double z = space_.low.z() + radius;
+    const Vec3 p(x, y, 0);
+    const int ci = cell(p, 0), cj = cell(p, 1);
+    for (int i = ci - 2; i <= ci + 2; ++i)
+      for (int j = cj - 2; j <= cj + 2; ++j) {
+        const int wi = wrap(i, 0), wj = wrap(j, 1);
+        if (wi < 0 || wj < 0) continue;
+        if ((i != wi && cells_[0] < 5) || (j != wj && cells_[1] < 5)) continue;  // counted already
+        for (const int s : columns_[column(wi, wj)]) {
+          const double sum = radius + radius_[s];
+          const double h2 = sum * sum - plan_distance2(p, centre_[s]);
+          if (h2 > 0) z = std::max(z, centre_[s].z() + std::sqrt(h2));
+        }
+      }
+    return z;
+  }
+
+  bool over_block(double x, double y, double radius) const {
+    for (const auto& b : space_.blocks) {
+      const double dx = std::max({b.low.x() - x, 0., x - b.high.x()});
+      const double dy = std::max({b.low.y() - y, 0., y - b.high.y()});
+      if (dx * dx + dy * dy < radius * radius) return true;
+    }
+    return false;
+  }
+
+ private:
+  int cell(const Vec3& x, int k) const {
+    return std::clamp(static_cast<int>((x[k] - space_.low[k]) / width_[k]), 0, cells_[k] - 1);
+  }
+  int wrap(int i, int k) const {
+    if (i >= 0 && i < cells_[k]) return i;
+    return space_.period[k] > 0 ? (i + 2 * cells_[k]) % cells_[k] : -1;
+  }
+  int column(int i, int j) const { return i * cells_[1] + j; }
+  double plan_distance2(const Vec3& p, const Vec3& q) const {
+    double sum = 0;
+    for (int k = 0; k < 2; ++k) {
+      double d = p[k] - q[k];
+      if (space_.period[k] > 0) d -= space_.period[k] * std::round(d / space_.period[k]);
+      sum += d * d;
+    }
+    return sum;
+  }
+
+  const PlacementSpace& space_;
+  double reach_;
+  int cells_[2];
+  double width_[2];
+  std::vector<std::vector<int>> columns_;
+  std::vector<Vec3> centre_;
+  std::vector<double> radius_;
+};
+
+}  // namespace
+
+Placement place_loose(const std::vector<double>& radii, const PlacementSpace& space,
+                      const PlacedSpheres& present, int tries, std::uint64_t seed) {
+  double largest = 0;
+  for (const double r : radii) largest = std::max(largest, r);
+  for (const double r : present.radius) largest = std::max(largest, r);
+  for (int k = 0; k < 2; ++k)
+    if (space.period[k] == 0 && space.high[k] - space.low[k] < 2 * largest)
+      throw InputError("Container: the largest grain (" + std::to_string(2e3 * largest) +
+                       " mm across) does not fit between the walls");
+  Plan plan(space, largest);
+  for (std::size_t i = 0; i < present.centre.size(); ++i)
+    plan.add(present.centre[i], present.radius[i]);
+
+  Random random(seed);
+  Placement placement;
+  for (const double r : radii) {
+    Vec3 best(0, 0, std::numeric_limits<double>::infinity());
+    int left = tries;
+    for (int spot = 0; left > 0 && spot < 1000 * tries; ++spot) {
+      const auto along = [&](int k) {
+        const double margin = space.period[k] > 0 ? 0 : r;
+        return random.uniform(space.low[k] + margin, space.high[k] - margin);
+      };
+      const double x = along(0), y = along(1);
+      if (plan.over_block(x, y, r)) continue;
+      --left;
+      const double z = plan.rest(x, y, r);
+      if (z < best.z()) best = Vec3(x, y, z);
+    }
+    if (!std::isfinite(best.z()))
+      throw InputError("Container: no room beside the sleeper for a grain of " +
+                       std::to_string(2e3 * r) + " mm");
+    plan.add(best, r);
+    placement.centre.push_back(best);
+    placement.turn.push_back(random.rotation());
+  }
+  return placement;
+}
+
+}  // namespace trackbed::dem
