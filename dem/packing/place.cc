@@ -1,6 +1,7 @@
 #include "dem/packing/place.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +14,7 @@ namespace {
 // Columns of the plan view, each with the spheres that reach over it.
 class Plan {
  public:
-  Plan(const PlacementSpace& space, double largest) : space_(space), reach_(largest) {
+  Plan(const PlacementSpace& space, double largest) : space_(space) {
     for (int k = 0; k < 2; ++k) {
       const double length = space.high[k] - space.low[k];
       cells_[k] = std::max(1, static_cast<int>(length / (2 * largest)));
@@ -32,13 +33,10 @@ class Plan {
   double rest(double x, double y, double radius) const {
     double z = space_.low.z() + radius;
     const Vec3 p(x, y, 0);
-    const int ci = cell(p, 0), cj = cell(p, 1);
-    for (int i = ci - 2; i <= ci + 2; ++i)
-      for (int j = cj - 2; j <= cj + 2; ++j) {
-        const int wi = wrap(i, 0), wj = wrap(j, 1);
-        if (wi < 0 || wj < 0) continue;
-        if ((i != wi && cells_[0] < 5) || (j != wj && cells_[1] < 5)) continue;  // counted already
-        for (const int s : columns_[column(wi, wj)]) {
+    for (const int i : near(cell(p, 0), 0))
+      for (const int j : near(cell(p, 1), 1)) {
+        if (i < 0 || j < 0) continue;
+        for (const int s : columns_[column(i, j)]) {
           const double sum = radius + radius_[s];
           const double h2 = sum * sum - plan_distance2(p, centre_[s]);
           if (h2 > 0) z = std::max(z, centre_[s].z() + std::sqrt(h2));
@@ -60,9 +58,13 @@ class Plan {
   int cell(const Vec3& x, int k) const {
     return std::clamp(static_cast<int>((x[k] - space_.low[k]) / width_[k]), 0, cells_[k] - 1);
   }
-  int wrap(int i, int k) const {
-    if (i >= 0 && i < cells_[k]) return i;
-    return space_.period[k] > 0 ? (i + 2 * cells_[k]) % cells_[k] : -1;
+  // The cell and its neighbours along k, each once; -1 = beyond a wall. Cells are two of the
+  // largest radii wide, so no sphere reaches further.
+  std::array<int, 3> near(int i, int k) const {
+    const int n = cells_[k];
+    if (n < 3) return {0, n - 1 > 0 ? 1 : -1, -1};
+    const bool around = space_.period[k] > 0;
+    return {i > 0 ? i - 1 : (around ? n - 1 : -1), i, i < n - 1 ? i + 1 : (around ? 0 : -1)};
   }
   int column(int i, int j) const { return i * cells_[1] + j; }
   double plan_distance2(const Vec3& p, const Vec3& q) const {
@@ -76,7 +78,6 @@ class Plan {
   }
 
   const PlacementSpace& space_;
-  double reach_;
   int cells_[2];
   double width_[2];
   std::vector<std::vector<int>> columns_;
