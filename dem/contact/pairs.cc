@@ -1,0 +1,33 @@
+#include "dem/contact/pairs.h"
+
+#include <numeric>
+
+namespace trackbed::dem {
+namespace {
+
+template <class T>
+void zero_resize(std::vector<T>& v, int n) {
+  v.resize(n, T(0));
+}
+void zero_resize(std::vector<Vec3>& v, int n) { v.resize(n, Vec3::Zero()); }
+
+}  // namespace
+
+void Pairs::resize(int pairs) {
+  for_each_array(*this, [pairs](const char*, auto& v) { zero_resize(v, pairs); });
+}
+
+void Pairs::index_bodies(int bodies) {
+  first.assign(bodies + 1, 0);
+  for (int p = 0; p < size(); ++p) ++first[a[p] + 1], ++first[b[p] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  incident.resize(2 * a.size());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (int p = 0; p < size(); ++p) incident[next[a[p]]++] = p, incident[next[b[p]]++] = ~p;
+}
+
+int count_contacts(const Pairs& pairs) {
+  return std::accumulate(pairs.touching.begin(), pairs.touching.end(), 0);
+}
+
+}  // namespace trackbed::dem

@@ -1,0 +1,27 @@
+// A sum over [0, n) whose order depends on n alone, so that it is bitwise the same for any number
+// of threads: at most 64 blocks, each summed in order, then the blocks in order.
+#pragma once
+#include <algorithm>
+#include <array>
+
+namespace trackbed::dem {
+
+/// Sum of term(i), i in [0, n), in parallel; T needs T() = 0 and +=.
+template <class T, class Term>
+T ordered_sum(int n, int threads, Term&& term) {
+  constexpr int kBlocks = 64;
+  std::array<T, kBlocks> part{};
+  const int size = std::max(16, (n + kBlocks - 1) / kBlocks);
+  const int blocks = (n + size - 1) / size;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (int k = 0; k < blocks; ++k) {
+    T sum{};
+    for (int i = k * size; i < std::min(n, (k + 1) * size); ++i) sum += term(i);
+    part[k] = sum;
+  }
+  T total{};
+  for (int k = 0; k < blocks; ++k) total += part[k];
+  return total;
+}
+
+}  // namespace trackbed::dem
