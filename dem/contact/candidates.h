@@ -2,8 +2,8 @@
 // a skin; rigid bodies (walls, plate, sleeper: large, few) are tested against all grains by their
 // boxes and face planes. The list holds until some body's surface may have travelled half a skin.
 //
-// Travel of body i since the search [m]: sum over steps of |v| dt + radius |turn|, an upper bound
-// of the way of its points. The same number tells each pair when to look again (Pairs::wake).
+// Travel of body i [m]: sum over all steps of |v| dt + radius |turn|, an upper bound of the way of
+// its points. It only grows; the same number tells each pair when to look again (Pairs::wake).
 #pragma once
 #include <utility>
 #include <vector>
@@ -33,9 +33,10 @@ class Candidates {
 
   /// All that a checkpoint must hold besides the pairs.
   struct State {
-    double skin = 0;             ///< [m]
-    long rebuilds = 0;           ///< searches so far
-    std::vector<double> travel;  ///< of each body since the search [m]
+    double skin = 0;                    ///< [m]
+    long rebuilds = 0;                  ///< searches so far
+    std::vector<double> travel;         ///< of each body since the start [m]
+    std::vector<double> travel_search;  ///< its value at the last search [m]
   };
   const State& state() const { return state_; }
   void restore(const State& s) { state_ = s; }

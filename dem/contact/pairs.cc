@@ -1,6 +1,7 @@
 #include "dem/contact/pairs.h"
 
 #include <numeric>
+#include <type_traits>
 
 namespace trackbed::dem {
 namespace {
@@ -15,6 +16,16 @@ void zero_resize(std::vector<Vec3>& v, int n) { v.resize(n, Vec3::Zero()); }
 
 void Pairs::resize(int pairs) {
   for_each_array(*this, [pairs](const char*, auto& v) { zero_resize(v, pairs); });
+}
+
+void Pairs::rearrange(const std::vector<int>& old) {
+  for_each_array(*this, [&old](const char*, auto& v) {
+    std::remove_reference_t<decltype(v)> next;
+    zero_resize(next, static_cast<int>(old.size()));
+    for (std::size_t p = 0; p < old.size(); ++p)
+      if (old[p] >= 0) next[p] = v[old[p]];
+    v.swap(next);
+  });
 }
 
 void Pairs::index_bodies(int bodies) {

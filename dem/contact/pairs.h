@@ -38,15 +38,17 @@ struct Pairs {
   std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
 
   int size() const { return static_cast<int>(a.size()); }
-  void resize(int pairs);         ///< new entries are zero
+  void resize(int pairs);  ///< new entries are zero
+  /// New entry p takes over all of the old entry old[p], or zeros where that is -1.
+  void rearrange(const std::vector<int>& old);
   void index_bodies(int bodies);  ///< rebuilds first, incident
 };
 
 /// Calls f(name, array) for each array that a checkpoint must hold so that the next step is
 /// bitwise the same; results that the next evaluation overwrites are included because output may
 /// read them before. After reading back: index_bodies.
-template <class P, class F>  // P: Pairs or const Pairs
-void for_each_array(P& p, F&& f) {
+template <class P, class F>
+void for_each_pair_array(P& p, F&& f) {
   f("a", p.a), f("b", p.b);
   f("axis", p.axis), f("wake", p.wake);
   f("friction", p.friction), f("friction_stiffness", p.friction_stiffness);
@@ -56,6 +58,15 @@ void for_each_array(P& p, F&& f) {
   f("energy", p.energy), f("friction_energy", p.friction_energy);
   f("friction_loss", p.friction_loss);
   f("area", p.area), f("depth", p.depth), f("stiffness", p.stiffness);
+}
+
+template <class F>
+void for_each_array(Pairs& p, F&& f) {
+  for_each_pair_array(p, f);
+}
+template <class F>
+void for_each_array(const Pairs& p, F&& f) {
+  for_each_pair_array(p, f);
 }
 
 /// Number of touching pairs.

@@ -21,8 +21,9 @@ int add_body(Bodies& b, int shape, int material, double mass, const Vec3& inerti
   const bool none_one_or_all = turns == 0 || turns == kTurnX || turns == kTurnY ||
                                turns == kTurnZ || turns == (kTurnX | kTurnY | kTurnZ);
   if (!none_one_or_all)
-    throw InputError(name + ": a body turns freely, about one axis, or not at all; two of three "
-                            "axes is not offered");
+    throw InputError(name +
+                     ": a body turns freely, about one axis, or not at all; two of three "
+                     "axes is not offered");
   const Quat unit = q.normalized();
   b.x.push_back(x);
   b.q.push_back(unit);

@@ -1,0 +1,144 @@
+#include "dem/contact/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "dem/contact/cell_grid.h"
+
+namespace trackbed::dem {
+namespace {
+
+double radius(const Bodies& b, const ShapeTable& shapes, int i) {
+  return shapes.view(b.shape[i]).radius;
+}
+
+/// What to add to b's place so that it is the image nearest to a.
+Vec3 image(const Vec3& a, const Vec3& b, const Vec3& period) {
+  Vec3 shift = Vec3::Zero();
+  for (int d = 0; d < 3; ++d)
+    if (period[d] > 0) shift[d] = -period[d] * std::round((b[d] - a[d]) / period[d]);
+  return shift;
+}
+
+/// Box i moved by `shift` against box j.
+template <class Box>
+bool meet(const Box& i, const Box& j, const Vec3& shift) {
+  return ((j.low + shift).array() <= i.high.array()).all() &&
+         (i.low.array() <= (j.high + shift).array()).all();
+}
+
+/// Some face plane of `body` has the sphere (centre, r) outside it.
+bool outside_a_face(const ConvexView& body, const Mat3& R, const Vec3& x, const Vec3& centre,
+                    double r) {
+  const Vec3 p = R.transpose() * (centre - x);
+  for (int f = 0; f < body.faces; ++f)
+    if (body.nx[f] * p.x() + body.ny[f] * p.y() + body.nz[f] * p.z() - body.offset[f] > r)
+      return true;
+  return false;
+}
+
+bool both_held(const Bodies& b, int i, int j) {
+  return b.freedom[i] == kFixed && b.freedom[j] == kFixed;
+}
+
+double default_skin(const Bodies& b, const ShapeTable& shapes) {
+  const int n = b.grains > 0 ? b.grains : b.size();
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += radius(b, shapes, i);
+  return n > 0 ? 0.1 * sum / n : 0;
+}
+
+}  // namespace
+
+bool Candidates::update(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
+                        Pairs& pairs) {
+  bool again = static_cast<int>(state_.travel.size()) != b.size();
+  if (!again) {
+    double most = 0;
+    for (int i = 0; i < b.size(); ++i) {
+      state_.travel[i] += b.v[i].norm() * c.dt + radius(b, shapes, i) * b.turn[i].norm();
+      most = std::max(most, state_.travel[i] - state_.travel_search[i]);
+    }
+    again = !(most <= state_.skin / 2);
+  }
+  if (again) rebuild(b, shapes, c, pairs);
+  return again;
+}
+
+void Candidates::rebuild(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
+                         Pairs& pairs) {
+  state_.skin = settings_.skin > 0 ? settings_.skin : default_skin(b, shapes);
+  make_boxes(b, shapes, c.threads);
+  found_.clear();
+  search_grains(b, c);
+  search_rigid(b, shapes, c);
+  std::sort(found_.begin(), found_.end());
+  carry_history(b.size(), pairs);
+  ++state_.rebuilds;
+}
+
+void Candidates::make_boxes(const Bodies& b, const ShapeTable& shapes, int threads) {
+  boxes_.resize(b.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (int i = 0; i < b.size(); ++i) {
+    const ConvexView s = shapes.view(b.shape[i]);
+    Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
+    for (int k = 0; k < s.vertices; ++k) {
+      const Vec3 p = b.R[i] * Vec3(s.x[k], s.y[k], s.z[k]);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const Vec3 skin = Vec3::Constant(state_.skin / 2);
+    boxes_[i] = {b.x[i] + low - skin, b.x[i] + high + skin};
+  }
+}
+
+void Candidates::search_grains(const Bodies& b, const StepContext& c) {
+  double width = 0;
+  for (int i = 0; i < b.grains; ++i)
+    width = std::max(width, 2 * std::max((boxes_[i].high - b.x[i]).maxCoeff(),
+                                         (b.x[i] - boxes_[i].low).maxCoeff()));
+  const CellGrid grid(b.x.data(), b.grains, width, c.period);
+  std::vector<std::vector<std::pair<int, int>>> rows(grid.cells());
+#pragma omp parallel for schedule(dynamic, 16) num_threads(c.threads) if (c.threads > 1)
+  for (int cell = 0; cell < grid.cells(); ++cell)
+    grid.for_each_near(cell, [&](int i, int j) {
+      if (i < j && !both_held(b, i, j) &&
+          meet(boxes_[i], boxes_[j], image(b.x[i], b.x[j], c.period)))
+        rows[cell].push_back({i, j});
+    });
+  for (const auto& row : rows) found_.insert(found_.end(), row.begin(), row.end());
+}
+
+void Candidates::search_rigid(const Bodies& b, const ShapeTable& shapes, const StepContext& c) {
+  for (int r = b.grains; r < b.size(); ++r) {
+    const ConvexView body = shapes.view(b.shape[r]);
+    for (int i = 0; i < (settings_.rigid_pairs ? r : b.grains); ++i) {
+      if (both_held(b, i, r)) continue;
+      const Vec3 shift = image(b.x[i], b.x[r], c.period);
+      if (!meet(boxes_[i], boxes_[r], shift)) continue;
+      if (outside_a_face(body, b.R[r], b.x[r] + shift, b.x[i], radius(b, shapes, i) + state_.skin))
+        continue;
+      found_.push_back({i, r});
+    }
+  }
+}
+
+void Candidates::carry_history(int bodies, Pairs& pairs) {
+  state_.travel.resize(bodies, 0);
+  state_.travel_search = state_.travel;
+
+  // Both lists are sorted: old place of each new pair, or -1.
+  const int n = static_cast<int>(found_.size());
+  std::vector<int> old(n, -1);
+  for (int p = 0, o = 0; p < n; ++p) {
+    while (o < pairs.size() && std::pair(pairs.a[o], pairs.b[o]) < found_[p]) ++o;
+    if (o < pairs.size() && std::pair(pairs.a[o], pairs.b[o]) == found_[p]) old[p] = o;
+  }
+  pairs.rearrange(old);
+  for (int p = 0; p < n; ++p) std::tie(pairs.a[p], pairs.b[p]) = found_[p];
+  pairs.index_bodies(bodies);
+}
+
+}  // namespace trackbed::dem
