@@ -7,8 +7,7 @@
 namespace trackbed::apps {
 
 /// FNV-1a, offset basis 14695981039346656037, prime 1099511628211 (Fowler, Noll, Vo 1991).
-constexpr std::uint64_t fnv1a(std::string_view text,
-                              std::uint64_t hash = 14695981039346656037ull) {
+constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 14695981039346656037ull) {
   for (char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
   return hash;
 }

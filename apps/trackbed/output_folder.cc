@@ -62,9 +62,10 @@ OutputFolder::OutputFolder(const std::string& folder, EarlierRun mode) : path_(f
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
       throw InputError(folder + ": another run is writing to this folder");
     if (mode == EarlierRun::refuse && holds_run(folder))
-      throw InputError(folder +
-                       ": holds a run already; go on with --resume, replace it with --overwrite, or "
-                       "choose another folder with --output");
+      throw InputError(
+          folder +
+          ": holds a run already; go on with --resume, replace it with --overwrite, or "
+          "choose another folder with --output");
     if (mode == EarlierRun::resume && !fs::exists(file("checkpoint.h5")))
       throw InputError(folder + ": holds no checkpoint.h5 to resume from");
   } catch (...) {

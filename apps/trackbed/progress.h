@@ -34,7 +34,7 @@ class Progress {
   void clear();
 
   bool terminal_;
-  bool drawn_ = false;   ///< a bar stands on the current line
+  bool drawn_ = false;  ///< a bar stands on the current line
   bool active_ = false;
   std::string stage_;
   double start_ = 0, end_ = 0;

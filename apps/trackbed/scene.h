@@ -12,97 +12,98 @@ namespace trackbed::apps {
 /// x across the track (along the sleeper), y along the track, z up; the subgrade's top is z = 0
 /// and the box is centred at x = y = 0.
 struct ContainerScene {
-  double length;        ///< in x [m]
-  double width;         ///< in y [m]
-  double depth;         ///< of ballast under the sleeper, design value [m]
-  bool periodic;        ///< seam in y instead of walls
-  bool half;            ///< by symmetry only x >= 0 is simulated, with a mirror wall at x = 0
-  double shoulder_width;///< ballast beyond the sleeper's end at its top [m]; 0 = box filled to the walls
-  double shoulder_slope;///< run over rise of the shoulder (1.75 = 1:1.75)
-  double fill_height;   ///< of the ballast beside the sleeper, above the sleeper's base [m]
-  double friction;      ///< grain on wall
+  double length;          ///< in x [m]
+  double width;           ///< in y [m]
+  double depth;           ///< of ballast under the sleeper, design value [m]
+  bool periodic;          ///< seam in y instead of walls
+  bool half;              ///< by symmetry only x >= 0 is simulated, with a mirror wall at x = 0
+  double shoulder_width;  ///< ballast beyond the sleeper's end at its top [m]; 0 = box filled to
+                          ///< the walls
+  double shoulder_slope;  ///< run over rise of the shoulder (1.75 = 1:1.75)
+  double fill_height;     ///< of the ballast beside the sleeper, above the sleeper's base [m]
+  double friction;        ///< grain on wall
 };
 
 struct GrainScene {
-  std::string generator;    ///< "voronoi" | "ellipsoid_hull"
-  int library;              ///< shapes in the library
+  std::string generator;  ///< "voronoi" | "ellipsoid_hull"
+  int library;            ///< shapes in the library
   std::uint64_t seed;
-  double density;           ///< [kg/m3]
-  double friction;          ///< grain on grain
-  std::string sieve_method; ///< that puts grains in their class
+  double density;            ///< [kg/m3]
+  double friction;           ///< grain on grain
+  std::string sieve_method;  ///< that puts grains in their class
 };
 
 struct GradationScene {
-  std::string curve;                       ///< a name, or "table"
-  std::vector<double> sieves, passing;     ///< of a table: [m], [%]
-  double top_sieve;                        ///< size of the largest grain when the curve ends below 100 % [m]
-  double tolerance;                        ///< per class, share of total mass
+  std::string curve;                    ///< a name, or "table"
+  std::vector<double> sieves, passing;  ///< of a table: [m], [%]
+  double top_sieve;  ///< size of the largest grain when the curve ends below 100 % [m]
+  double tolerance;  ///< per class, share of total mass
 };
 
 struct ContactScene {
-  std::string law;             ///< "stored_energy" | "shao2017"
-  double modulus;              ///< contact modulus of the loading stage [Pa]
-  double packing_modulus;      ///< softer, while packing [Pa]
-  double tangential_ratio;     ///< k_s/k_n
-  double damping;              ///< local damping while loading; 0 = off
-  double packing_damping;      ///< local damping while packing
-  double largest_overlap;      ///< share of the grain's size at which a run stops
+  std::string law;          ///< "stored_energy" | "shao2017"
+  double modulus;           ///< contact modulus of the loading stage [Pa]
+  double packing_modulus;   ///< softer, while packing [Pa]
+  double tangential_ratio;  ///< k_s/k_n
+  double damping;           ///< local damping while loading; 0 = off
+  double packing_damping;   ///< local damping while packing
+  double largest_overlap;   ///< share of the grain's size at which a run stops
 };
 
 struct PackingScene {
-  double bulk_density;         ///< design density of the bed that sets the grain mass [kg/m3]
-  double packing_friction;     ///< while dropping; < 0 = the grains' own
-  double settle_time;          ///< longest time of the gravity deposit [s]
-  double quiet;                ///< kinetic energy per grain over m g d at which a stage is at rest
-  double plate_force;          ///< peak [N]
-  double plate_frequency;      ///< [Hz]
+  double bulk_density;      ///< design density of the bed that sets the grain mass [kg/m3]
+  double packing_friction;  ///< while dropping; < 0 = the grains' own
+  double settle_time;       ///< longest time of the gravity deposit [s]
+  double quiet;             ///< kinetic energy per grain over m g d at which a stage is at rest
+  double plate_force;       ///< peak [N]
+  double plate_frequency;   ///< [Hz]
   int plate_cycles;
-  double target_density;       ///< [kg/m3] tamping stops when reached; 0 = all cycles
+  double target_density;  ///< [kg/m3] tamping stops when reached; 0 = all cycles
   double plate_thickness, plate_density;
-  std::string folder;          ///< where packings are stored
-  bool reuse;                  ///< take a stored packing with the same inputs
+  std::string folder;  ///< where packings are stored
+  bool reuse;          ///< take a stored packing with the same inputs
 };
 
 struct SleeperScene {
-  std::string model;           ///< "rigid" | "elastic"
-  double length, width, height;///< in x, y, z [m]
+  std::string model;             ///< "rigid" | "elastic"
+  double length, width, height;  ///< in x, y, z [m]
   double density, modulus, poisson, friction;
-  std::vector<double> elements;///< in x, y, z
-  int order;                   ///< polynomial degree of the elements
+  std::vector<double> elements;  ///< in x, y, z
+  int order;                     ///< polynomial degree of the elements
   double pad_thickness, pad_modulus, pad_poisson, pad_density;  ///< under-sleeper pad, 0 = none
-  std::vector<double> seats;   ///< x of the rail seats [m]
+  std::vector<double> seats;                                    ///< x of the rail seats [m]
   double seat_length, seat_width;  ///< loaded area of one seat in x, y [m]
-  bool vertical_only;          ///< a rigid sleeper moves only vertically (Sun 2015)
-  std::string mesh;            ///< Gmsh file instead of a block; empty = block
+  bool vertical_only;              ///< a rigid sleeper moves only vertically (Sun 2015)
+  std::string mesh;                ///< Gmsh file instead of a block; empty = block
 };
 
 struct SubgradeScene {
-  std::string model;           ///< "rigid" or a name from the registry ("layered_elastic", ...)
-  double depth;                ///< [m]
-  std::string layers;          ///< "thickness:E:nu:rho, ..." from the top down
-  std::vector<double> elements;///< in x, y; and z per layer by size
-  double element_size;         ///< [m], used where elements is empty
+  std::string model;             ///< "rigid" or a name from the registry ("layered_elastic", ...)
+  double depth;                  ///< [m]
+  std::string layers;            ///< "thickness:E:nu:rho, ..." from the top down
+  std::vector<double> elements;  ///< in x, y; and z per layer by size
+  double element_size;           ///< [m], used where elements is empty
   int order;
   double friction;
   std::string mesh;
 };
 
 struct LoadingScene {
-  double least, largest;       ///< total on the sleeper [N]
-  double frequency;            ///< [Hz]
+  double least, largest;  ///< total on the sleeper [N]
+  double frequency;       ///< [Hz]
   int cycles;
-  double ramp_time;            ///< from zero to the least load [s]
-  std::string waveform;        ///< "sine" | "haversine"
+  double ramp_time;      ///< from zero to the least load [s]
+  std::string waveform;  ///< "sine" | "haversine"
 };
 
 struct NumericsScene {
-  double margin;               ///< share of the stability limit
+  double margin;  ///< share of the stability limit
   double packing_margin;
-  double time_step;            ///< fixed step [s]; 0 = from margin
-  double spectral_radius;      ///< of generalised-alpha at infinite frequency; 1 = Newmark
-  double closure;              ///< share of the work done beyond which the ledger is reported open
+  double time_step;        ///< fixed step [s]; 0 = from margin
+  double spectral_radius;  ///< of generalised-alpha at infinite frequency; 1 = Newmark
+  double closure;          ///< share of the work done beyond which the ledger is reported open
   bool structure_inertia;
-  double mirror_noise;         ///< relative size of a last-bit change of the start (noise floor)
+  double mirror_noise;  ///< relative size of a last-bit change of the start (noise floor)
 };
 
 struct OutputScene {
@@ -114,10 +115,10 @@ struct OutputScene {
 
 struct Scene {
   std::string title;
-  std::string name;            ///< file name without ending: names the results folder
+  std::string name;  ///< file name without ending: names the results folder
   std::string file;
   std::map<std::string, std::string> values;  ///< every parameter as used: "Section/Key" to text
-  std::string resolved;        ///< the same as a parameter file (scene.resolved.prm)
+  std::string resolved;                       ///< the same as a parameter file (scene.resolved.prm)
   ContainerScene container;
   GrainScene grains;
   GradationScene gradation;

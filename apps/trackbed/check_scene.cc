@@ -1,0 +1,180 @@
+#include "apps/trackbed/check_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/trackbed/csv.h"
+#include "apps/trackbed/grain_estimate.h"
+#include "apps/trackbed/layers.h"
+#include "base/error.h"
+
+namespace trackbed::apps {
+namespace {
+
+/// Collects what every message needs.
+struct Check {
+  const Scene& scene;
+  const ParameterValues& values;
+
+  [[noreturn]] void refuse(const std::string& path, const std::string& why) const {
+    throw InputError(values.where(path) + " = " + values.text(path) + ": " + why);
+  }
+};
+
+std::string metres(double value) { return shortest(std::round(value * 1e9) / 1e9) + " m"; }
+
+void check_gradation(const Check& c) {
+  const auto& g = c.scene.gradation;
+  if (g.curve != "table") {
+    if (!g.sieves.empty())
+      c.refuse("Gradation/Sieves",
+               "is used only with Gradation/Curve = table, not with " + g.curve);
+    if (!g.passing.empty())
+      c.refuse("Gradation/Passing",
+               "is used only with Gradation/Curve = table, not with " + g.curve);
+  } else {
+    if (g.sieves.empty())
+      c.refuse("Gradation/Curve", "needs Gradation/Sieves and Gradation/Passing");
+    if (g.sieves.size() != g.passing.size())
+      c.refuse("Gradation/Passing", "has " + std::to_string(g.passing.size()) + " values for " +
+                                        std::to_string(g.sieves.size()) +
+                                        " of Gradation/Sieves; one each is needed");
+    for (std::size_t i = 1; i < g.sieves.size(); ++i) {
+      if (g.sieves[i] <= g.sieves[i - 1])
+        c.refuse("Gradation/Sieves", shortest(g.sieves[i]) + " m follows " +
+                                         shortest(g.sieves[i - 1]) +
+                                         " m; openings must rise from sieve to sieve");
+      if (g.passing[i] < g.passing[i - 1])
+        c.refuse("Gradation/Passing", "the curve decreases from " + shortest(g.passing[i - 1]) +
+                                          " % at " + metres(g.sieves[i - 1]) + " to " +
+                                          shortest(g.passing[i]) + " % at " + metres(g.sieves[i]) +
+                                          "; passing must never fall as sieves widen");
+    }
+    if (g.passing.front() > 0 && g.sieves.size() == 1 && g.passing.front() < 100)
+      c.refuse("Gradation/Sieves", "one sieve makes no class; at least two are needed");
+  }
+  const auto classes = gradation_classes(c.scene);
+  if (classes.empty())
+    c.refuse("Gradation/Passing", "no class holds any mass; passing must reach beyond 0 %");
+  const double last = classes.back().lower;
+  if (classes.back().open && g.top_sieve <= last)
+    c.refuse("Gradation/Top sieve", "the curve ends below 100 % at " + metres(last) +
+                                        ", so the largest grains need a wider sieve than that");
+  const double largest = classes.back().upper;
+  const double room = std::min({c.scene.container.length * (c.scene.container.half ? 0.5 : 1.0),
+                                c.scene.container.width, c.scene.container.depth});
+  if (largest > 0.5 * room)
+    c.refuse("Container/Width", "the narrowest side of the bed is " + metres(room) +
+                                    "; two of the largest grains (" + metres(largest) +
+                                    ") must fit");
+  for (const auto& k : classes)
+    if (k.share > g.tolerance && k.grains < 0.5)
+      c.refuse(g.curve == "table" ? "Gradation/Passing" : "Gradation/Curve",
+               "the class from " + metres(k.lower) + " to " + metres(k.upper) +
+                   " would hold no grain: its " + shortest(std::round(1000 * k.share) / 10) +
+                   " % of the mass is less than half a grain; widen the box or join classes");
+}
+
+void check_sleeper(const Check& c) {
+  const auto& s = c.scene.sleeper;
+  const auto& box = c.scene.container;
+  if (s.length > box.length)
+    c.refuse("Sleeper/Length",
+             "longer than the box; at most Container/Length = " + metres(box.length));
+  if (s.width > box.width || (box.periodic && s.width >= box.width))
+    c.refuse("Sleeper/Width", std::string("wider than the ") + (box.periodic ? "bay" : "box") +
+                                  "; at most Container/Width = " + metres(box.width));
+  if (s.elements.size() != 3)
+    c.refuse("Sleeper/Elements", "three numbers are needed, in x, y and z");
+  if (s.pad_thickness >= s.height)
+    c.refuse("Sleeper/Pad thickness", "less than Sleeper/Height = " + metres(s.height));
+  if (s.seats.empty()) c.refuse("Sleeper/Seats", "at least one rail seat is needed");
+  for (const double x : s.seats)
+    if (std::abs(x) + 0.5 * s.seat_length > 0.5 * s.length * (1 + 1e-12))
+      c.refuse("Sleeper/Seats",
+               "the seat at x = " + metres(x) + " of Seat length " + metres(s.seat_length) +
+                   " lies outside the sleeper, which ends at " + metres(0.5 * s.length));
+  if (s.seat_width > s.width)
+    c.refuse("Sleeper/Seat width", "at most Sleeper/Width = " + metres(s.width));
+  if (box.half) {
+    auto mirrored = s.seats;
+    for (auto& x : mirrored) x = -x;
+    auto given = s.seats;
+    std::sort(mirrored.begin(), mirrored.end());
+    std::sort(given.begin(), given.end());
+    if (mirrored != given)
+      c.refuse("Sleeper/Seats", "Container/Half by symmetry needs seats that mirror each other");
+  }
+  if (s.vertical_only && s.model != "rigid")
+    c.refuse("Sleeper/Vertical only", "holds for Sleeper/Model = rigid only");
+  if (!s.mesh.empty() && s.model == "rigid")
+    c.refuse("Sleeper/Mesh", "is used only with Sleeper/Model = elastic");
+}
+
+void check_shoulder(const Check& c) {
+  const auto& box = c.scene.container;
+  if (box.shoulder_width <= 0) return;
+  const double top = 0.5 * c.scene.sleeper.length + box.shoulder_width;
+  const double toe = top + box.shoulder_slope * (box.depth + box.fill_height);
+  if (toe > 0.5 * box.length)
+    c.refuse("Container/Length", "the shoulder's toe lies at x = " + metres(toe) + "; at least " +
+                                     metres(2 * toe) + " are needed");
+}
+
+void check_subgrade(const Check& c) {
+  const auto& s = c.scene.subgrade;
+  if (s.model == "rigid") return;
+  if (!s.elements.empty() && s.elements.size() != 2)
+    c.refuse("Subgrade/Elements", "two numbers are needed, in x and y, or none");
+  if (s.layers.empty()) return;
+  double thickness = 0;
+  std::string fault;
+  for (const auto& layer : parse_layers(s.layers, fault)) thickness += layer.thickness;
+  if (!fault.empty()) c.refuse("Subgrade/Layers", fault);
+  if (std::abs(thickness - s.depth) > 1e-9 * s.depth)
+    c.refuse("Subgrade/Layers", "the layers are " + metres(thickness) +
+                                    " thick together, Subgrade/Depth is " + metres(s.depth));
+}
+
+void check_mesh(const Check& c, const std::string& path) {
+  const std::string& mesh = c.values.text(path);
+  if (mesh.empty()) return;
+  if (!std::filesystem::is_regular_file(mesh))
+    c.refuse(path, "no such file (a mesh is looked for next to the scene's file)");
+}
+
+void check_loading(const Check& c) {
+  const auto& l = c.scene.loading;
+  if (l.least >= l.largest)
+    c.refuse("Loading/Least",
+             "less than Loading/Largest = " + shortest(l.largest) + " N is needed");
+}
+
+void check_densities(const Check& c) {
+  const auto& p = c.scene.packing;
+  const double rock = c.scene.grains.density;
+  if (p.bulk_density >= rock)
+    c.refuse("Packing/Bulk density",
+             "a bed has pores: less than Grains/Density = " + shortest(rock) + " kg/m3");
+  if (p.target_density >= rock)
+    c.refuse("Packing/Target density",
+             "a bed has pores: less than Grains/Density = " + shortest(rock) + " kg/m3");
+  if (p.folder.empty()) c.refuse("Packing/Folder", "a folder's name is needed");
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene, const ParameterValues& values) {
+  const Check check{scene, values};
+  check_sleeper(check);
+  check_shoulder(check);
+  check_densities(check);
+  check_gradation(check);
+  check_subgrade(check);
+  check_mesh(check, "Sleeper/Mesh");
+  check_mesh(check, "Subgrade/Mesh");
+  check_loading(check);
+}
+
+}  // namespace trackbed::apps

@@ -1,0 +1,19 @@
+// The names that a parameter file may choose from, taken from the libraries that own them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/parameter.h"
+
+namespace trackbed::apps {
+
+std::vector<std::string> grain_generators();
+std::vector<std::string> sieve_methods();
+std::vector<std::string> gradation_curves();  ///< without "table"
+std::vector<std::string> contact_laws();
+std::vector<std::string> subgrade_models();  ///< "rigid" first
+
+/// Parameters that the subgrade models bring along, each in a section of its own.
+std::vector<Parameter> subgrade_parameters();
+
+}  // namespace trackbed::apps

@@ -1,0 +1,304 @@
+#include "apps/trackbed/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/trackbed/choices.h"
+
+namespace trackbed::apps {
+namespace {
+
+constexpr double any = std::numeric_limits<double>::infinity();
+
+/// Collects the parameters of one section.
+class Section {
+ public:
+  Section(std::vector<Parameter>& table, std::string name)
+      : table_(table), name_(std::move(name)) {}
+
+  void number(const char* key, const char* fallback, const char* unit, double least, double most,
+              const char* meaning) {
+    add(key, fallback, unit, meaning, ParameterKind::number, least, most);
+  }
+  void integer(const char* key, const char* fallback, double least, double most,
+               const char* meaning) {
+    add(key, fallback, "-", meaning, ParameterKind::integer, least, most);
+  }
+  void numbers(const char* key, const char* fallback, const char* unit, double least, double most,
+               const char* meaning) {
+    add(key, fallback, unit, meaning, ParameterKind::numbers, least, most);
+  }
+  void boolean(const char* key, const char* fallback, const char* meaning) {
+    add(key, fallback, "-", meaning, ParameterKind::boolean, -any, any);
+  }
+  void text(const char* key, const char* fallback, const char* unit, const char* meaning) {
+    add(key, fallback, unit, meaning, ParameterKind::text, -any, any);
+  }
+  void choice(const char* key, const char* fallback, std::vector<std::string> choices,
+              const char* meaning) {
+    add(key, fallback, "-", meaning, ParameterKind::choice, -any, any);
+    table_.back().choices = std::move(choices);
+  }
+
+ private:
+  void add(const char* key, const char* fallback, const char* unit, const char* meaning,
+           ParameterKind kind, double least, double most) {
+    table_.push_back({name_, key, fallback, unit, meaning, kind, least, most, {}});
+  }
+  std::vector<Parameter>& table_;
+  std::string name_;
+};
+
+void add_container(Section s) {
+  s.number("Length", "0.6", "m", 0.01, 100, "of the box across the track (x, along the sleeper)");
+  s.number("Width", "0.3", "m", 0.01, 100,
+           "of the box along the track (y); a periodic bay's length");
+  s.number("Ballast depth", "0.35", "m", 0.01, 5, "design depth of ballast under the sleeper");
+  s.boolean("Periodic along track", "false",
+            "a seam in y instead of walls: what leaves on one side comes in on the other");
+  s.boolean("Half by symmetry", "false",
+            "simulate x >= 0 only, with a frictionless mirror wall at x = 0");
+  s.number("Shoulder width", "0", "m", 0, 5,
+           "ballast beyond the sleeper's end at its top; 0 = the box is filled to its walls");
+  s.number("Shoulder slope", "1.75", "-", 0, 10, "run over rise: 1.75 is a slope of 1:1.75");
+  s.number("Fill height", "0.15", "m", 0, 1, "of the ballast beside the sleeper, above its base");
+  s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on wall");
+}
+
+void add_grains(Section s) {
+  s.choice("Generator", "voronoi", grain_generators(), "of the library of convex grains");
+  s.integer("Library size", "600", 1, 1e6, "shapes to draw from");
+  s.integer("Seed", "1", 0, 9e15, "of every random choice: the same seed gives the same packing");
+  s.number("Density", "2600", "kg/m3", 1, 2e4, "of the rock (Shao 2017, Table 3)");
+  s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on grain (Shao 2017, Table 3)");
+  s.choice("Sieve method", "exact", sieve_methods(), "that puts a grain into its sieve class");
+}
+
+void add_gradation(Section s) {
+  auto curves = gradation_curves();
+  curves.push_back("table");
+  s.choice("Curve", "shao_wide", curves, "sieve curve by name, or table to give it here");
+  s.numbers("Sieves", "", "m", 1e-6, 10, "of a table: openings, rising, such as 0.025, 0.0355");
+  s.numbers("Passing", "", "%", 0, 100, "of a table: mass passing each sieve, never falling");
+  s.number("Top sieve", "0.071", "m", 1e-6, 10,
+           "opening that the largest grains pass, where the curve ends below 100 %");
+  s.number("Tolerance", "0.01", "-", 1e-6, 1,
+           "largest deviation of a class from the curve, as a share of the total mass");
+}
+
+void add_contact(Section s) {
+  s.choice("Law", "stored_energy", contact_laws(),
+           "normal contact: stored_energy is conservative; shao2017 is Eq. 17 as printed");
+  s.number("Contact modulus", "2e9", "Pa", 1e3, 1e13,
+           "E of Eq. 17 while loading; a softer one allows larger steps and overlaps (rock: 5e10)");
+  s.number("Packing modulus", "2e8", "Pa", 1e3, 1e13, "E of Eq. 17 while packing");
+  s.number("Tangential ratio", "0.25", "-", 0, 10, "tangential over normal stiffness (k_s/k_n)");
+  s.number("Local damping", "0", "-", 0, 0.95,
+           "share of the unbalanced force that opposes motion while loading; 0 = off");
+  s.number("Packing damping", "0.4", "-", 0, 0.95, "the same while packing");
+  s.number("Largest overlap", "0.1", "-", 1e-6, 0.5,
+           "depth over the grain's sieve size at which a run stops");
+}
+
+void add_packing(Section s) {
+  s.number("Bulk density", "1720", "kg/m3", 1, 2e4,
+           "design density of the bed: sets the mass of grains poured (Shao 2017, Eq. 14)");
+  s.number("Packing friction", "-1", "-", -1, 10,
+           "grain on grain while dropping; negative = the grains' own");
+  s.number("Settle time", "1.5", "s", 1e-6, 1e4, "longest time of the deposit under gravity");
+  s.number("Quiet", "1e-4", "-", 1e-15, 1,
+           "at rest when the kinetic energy per grain falls below this share of m g d");
+  s.number("Plate force", "4e4", "N", 0, 1e9, "peak of the tamping plate (Shao 2017: 40 kN)");
+  s.number("Plate frequency", "10", "Hz", 1e-3, 1e4, "of the tamping plate");
+  s.integer("Plate cycles", "8", 0, 1e6, "at most; 0 = no tamping (Shao 2017: 45)");
+  s.number("Target density", "1550", "kg/m3", 0, 2e4,
+           "tamping ends when the bed is this dense; 0 = after all cycles (Shao 2017: 1550)");
+  s.number("Plate thickness", "0.03", "m", 1e-4, 1, "of the rigid tamping plate");
+  s.number("Plate density", "7850", "kg/m3", 1, 1e5, "of the rigid tamping plate");
+  s.text("Folder", "results/packings", "-", "where packings are kept for other runs");
+  s.boolean("Reuse", "true", "take a kept packing that was made from the same inputs");
+}
+
+void add_sleeper(Section s) {
+  s.choice("Model", "elastic", {"rigid", "elastic"},
+           "six equations of a rigid body, or an FE body");
+  s.number("Length", "0.26", "m", 1e-3, 20, "in x, across the track");
+  s.number("Width", "0.28", "m", 1e-3, 5, "in y, along the track");
+  s.number("Height", "0.2", "m", 1e-3, 2, "in z");
+  s.number("Density", "2800", "kg/m3", 1, 2e4, "(Shao 2017, Table 3)");
+  s.number("Modulus", "4e10", "Pa", 1e3, 1e13, "Young's modulus (concrete)");
+  s.number("Poisson", "0.2", "-", 0, 0.49999, "Poisson's ratio");
+  s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on sleeper");
+  s.numbers("Elements", "4, 4, 3", "-", 1, 1000, "in x, y and z, of an elastic sleeper");
+  s.integer("Order", "2", 1, 4, "polynomial degree of the elements");
+  s.number("Pad thickness", "0", "m", 0, 0.2, "of an under-sleeper pad within Height; 0 = none");
+  s.number("Pad modulus", "5e6", "Pa", 1e3, 1e13, "Young's modulus of the pad");
+  s.number("Pad Poisson", "0.4", "-", 0, 0.49999, "Poisson's ratio of the pad");
+  s.number("Pad density", "1000", "kg/m3", 1, 2e4, "of the pad");
+  s.numbers("Seats", "0", "m", -10, 10, "x of the rail seats; the load is shared equally");
+  s.number("Seat length", "0.15", "m", 1e-3, 5, "loaded area of a seat, in x");
+  s.number("Seat width", "0.15", "m", 1e-3, 5, "loaded area of a seat, in y");
+  s.boolean("Vertical only", "false", "a rigid sleeper that only moves up and down (Sun 2015)");
+  s.text("Mesh", "", "-", "Gmsh file instead of a block, relative to this file; empty = block");
+}
+
+void add_subgrade(Section s) {
+  s.choice("Model", "layered_elastic", subgrade_models(), "what carries the ballast");
+  s.number("Depth", "0.6", "m", 1e-3, 100, "down to a fixed base");
+  s.text("Layers", "0.2:1.2e8:0.3:2000, 0.4:6e7:0.35:1900", "m:Pa:-:kg/m3",
+         "from the top down, thickness:E:nu:density of each; together as thick as Depth");
+  s.numbers("Elements", "", "-", 1, 1000, "in x and y; empty = by Element size");
+  s.number("Element size", "0.1", "m", 1e-4, 10, "largest edge of an element");
+  s.integer("Order", "1", 1, 4, "polynomial degree of the elements");
+  s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on subgrade");
+  s.text("Mesh", "", "-", "Gmsh file instead of a block, relative to this file; empty = block");
+}
+
+void add_loading(Section s) {
+  s.number("Least", "3e3", "N", 0, 1e9, "total force on the sleeper at the trough");
+  s.number("Largest", "8e4", "N", 0, 1e9, "total force on the sleeper at the peak");
+  s.number("Frequency", "10", "Hz", 1e-6, 1e4, "of the load");
+  s.integer("Cycles", "10", 0, 1e9, "load cycles (Shao 2017: 80)");
+  s.number("Ramp time", "0.05", "s", 0, 1e4, "from no load to Least");
+  s.choice("Waveform", "sine", {"sine", "haversine"},
+           "sine starts at the mean, haversine at Least");
+}
+
+void add_numerics(Section s) {
+  s.number("Margin", "0.2", "-", 1e-4, 1, "time step as a share of the stability limit");
+  s.number("Packing margin", "0.3", "-", 1e-4, 1, "the same while packing");
+  s.number("Time step", "0", "s", 0, 1, "fixed step of all stages; 0 = from the margins");
+  s.number("Spectral radius", "0.9", "-", 0, 1,
+           "of generalised-alpha at infinite frequency; 1 = Newmark's trapezoidal rule");
+  s.number("Closure", "0.01", "-", 1e-12, 1,
+           "share of the work done beyond which the energy ledger is reported open");
+  s.boolean("Structure inertia", "true", "of elastic structures; false = quasi-static");
+  s.number("Mirror noise", "0", "-", 0, 1e-6,
+           "relative change of the start to show the noise floor; 0 = off");
+}
+
+void add_output(Section s) {
+  s.integer("Samples per cycle", "100", 4, 1e6, "lines of history.csv in a load cycle");
+  s.number("Snapshot interval", "0.05", "s", 0, 1e6, "0 = at the stages' ends only");
+  s.number("Checkpoint interval", "5", "min", 0, 1e5,
+           "of wall-clock time; 0 = at stages' ends only");
+  s.boolean("Structure fields", "true", "write the structures' deformation with every snapshot");
+}
+
+bool is_true_or_false(const std::string& value) {
+  for (const char* word : {"true", "false", "yes", "no", "on", "off"})
+    if (value == word) return true;
+  return false;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Parameter> scene_parameters() {
+  std::vector<Parameter> table;
+  Section(table, "").text("Title", "Ballast box", "-", "heads the report");
+  add_container({table, "Container"});
+  add_grains({table, "Grains"});
+  add_gradation({table, "Gradation"});
+  add_contact({table, "Contact"});
+  add_packing({table, "Packing"});
+  add_sleeper({table, "Sleeper"});
+  add_subgrade({table, "Subgrade"});
+  const auto models = subgrade_parameters();
+  table.insert(table.end(), models.begin(), models.end());
+  add_loading({table, "Loading"});
+  add_numerics({table, "Numerics"});
+  add_output({table, "Output"});
+  return table;
+}
+
+std::string parameter_path(const Parameter& parameter) {
+  return parameter.section.empty() ? parameter.key : parameter.section + "/" + parameter.key;
+}
+
+std::string allowed_text(const Parameter& p) {
+  switch (p.kind) {
+    case ParameterKind::boolean:
+      return "true or false";
+    case ParameterKind::text:
+      return "any text";
+    case ParameterKind::choice: {
+      std::string text;
+      for (const auto& choice : p.choices)
+        text += (text.empty() ? "" : choice == p.choices.back() ? " or " : ", ") + choice;
+      return text;
+    }
+    default:
+      break;
+  }
+  std::string text = p.kind == ParameterKind::integer   ? "a whole number"
+                     : p.kind == ParameterKind::numbers ? "numbers separated by commas, each"
+                                                        : "a number";
+  if (std::isfinite(p.least) && std::isfinite(p.most))
+    return text + " from " + short_number(p.least) + " to " + short_number(p.most);
+  if (std::isfinite(p.least)) return text + " of at least " + short_number(p.least);
+  if (std::isfinite(p.most)) return text + " of at most " + short_number(p.most);
+  return text;
+}
+
+bool parse_number(const std::string& text, double& value) {
+  if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string::npos) return false;
+  std::size_t used = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return used == text.size() && std::isfinite(value);
+}
+
+bool parse_numbers(const std::string& text, std::vector<double>& values) {
+  values.clear();
+  if (text.find_first_not_of(" \t") == std::string::npos) return true;
+  for (std::size_t at = 0; at <= text.size();) {
+    const auto comma = std::min(text.find(',', at), text.size());
+    std::string piece = text.substr(at, comma - at);
+    piece.erase(0, piece.find_first_not_of(" \t"));
+    piece.erase(piece.find_last_not_of(" \t") + 1);
+    double value = 0;
+    if (!parse_number(piece, value)) return false;
+    values.push_back(value);
+    at = comma + 1;
+  }
+  return true;
+}
+
+std::string fault_of(const Parameter& p, const std::string& value) {
+  const auto outside = [&p](double x) { return x < p.least || x > p.most; };
+  double x = 0;
+  std::vector<double> list;
+  switch (p.kind) {
+    case ParameterKind::number:
+      if (!parse_number(value, x)) return "is not a number";
+      return outside(x) ? "is out of range" : "";
+    case ParameterKind::integer:
+      if (!parse_number(value, x) || value.find_first_of(".eE") != std::string::npos)
+        return "is not a whole number";
+      return outside(x) ? "is out of range" : "";
+    case ParameterKind::numbers:
+      if (!parse_numbers(value, list)) return "is not a list of numbers";
+      return std::any_of(list.begin(), list.end(), outside) ? "is out of range" : "";
+    case ParameterKind::boolean:
+      return is_true_or_false(value) ? "" : "is neither true nor false";
+    case ParameterKind::choice:
+      return std::find(p.choices.begin(), p.choices.end(), value) != p.choices.end()
+                 ? ""
+                 : "is not one of the choices";
+    case ParameterKind::text:
+      return "";
+  }
+  return "";
+}
+
+}  // namespace trackbed::apps

@@ -1,0 +1,186 @@
+#include "apps/trackbed/read_scene.h"
+
+#include <filesystem>
+
+#include "apps/trackbed/check_scene.h"
+#include "apps/trackbed/parameter_values.h"
+#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/scene_text.h"
+
+namespace trackbed::apps {
+namespace {
+
+using Values = ParameterValues;
+
+ContainerScene container(const Values& v) {
+  ContainerScene c{};
+  c.length = v.number("Container/Length");
+  c.width = v.number("Container/Width");
+  c.depth = v.number("Container/Ballast depth");
+  c.periodic = v.boolean("Container/Periodic along track");
+  c.half = v.boolean("Container/Half by symmetry");
+  c.shoulder_width = v.number("Container/Shoulder width");
+  c.shoulder_slope = v.number("Container/Shoulder slope");
+  c.fill_height = v.number("Container/Fill height");
+  c.friction = v.number("Container/Friction");
+  return c;
+}
+
+GrainScene grains(const Values& v) {
+  GrainScene g{};
+  g.generator = v.text("Grains/Generator");
+  g.library = static_cast<int>(v.integer("Grains/Library size"));
+  g.seed = static_cast<std::uint64_t>(v.integer("Grains/Seed"));
+  g.density = v.number("Grains/Density");
+  g.friction = v.number("Grains/Friction");
+  g.sieve_method = v.text("Grains/Sieve method");
+  return g;
+}
+
+GradationScene gradation(const Values& v) {
+  GradationScene g{};
+  g.curve = v.text("Gradation/Curve");
+  g.sieves = v.numbers("Gradation/Sieves");
+  g.passing = v.numbers("Gradation/Passing");
+  g.top_sieve = v.number("Gradation/Top sieve");
+  g.tolerance = v.number("Gradation/Tolerance");
+  return g;
+}
+
+ContactScene contact(const Values& v) {
+  ContactScene c{};
+  c.law = v.text("Contact/Law");
+  c.modulus = v.number("Contact/Contact modulus");
+  c.packing_modulus = v.number("Contact/Packing modulus");
+  c.tangential_ratio = v.number("Contact/Tangential ratio");
+  c.damping = v.number("Contact/Local damping");
+  c.packing_damping = v.number("Contact/Packing damping");
+  c.largest_overlap = v.number("Contact/Largest overlap");
+  return c;
+}
+
+PackingScene packing(const Values& v) {
+  PackingScene p{};
+  p.bulk_density = v.number("Packing/Bulk density");
+  p.packing_friction = v.number("Packing/Packing friction");
+  p.settle_time = v.number("Packing/Settle time");
+  p.quiet = v.number("Packing/Quiet");
+  p.plate_force = v.number("Packing/Plate force");
+  p.plate_frequency = v.number("Packing/Plate frequency");
+  p.plate_cycles = static_cast<int>(v.integer("Packing/Plate cycles"));
+  p.target_density = v.number("Packing/Target density");
+  p.plate_thickness = v.number("Packing/Plate thickness");
+  p.plate_density = v.number("Packing/Plate density");
+  p.folder = v.text("Packing/Folder");
+  p.reuse = v.boolean("Packing/Reuse");
+  return p;
+}
+
+SleeperScene sleeper(const Values& v) {
+  SleeperScene s{};
+  s.model = v.text("Sleeper/Model");
+  s.length = v.number("Sleeper/Length");
+  s.width = v.number("Sleeper/Width");
+  s.height = v.number("Sleeper/Height");
+  s.density = v.number("Sleeper/Density");
+  s.modulus = v.number("Sleeper/Modulus");
+  s.poisson = v.number("Sleeper/Poisson");
+  s.friction = v.number("Sleeper/Friction");
+  s.elements = v.numbers("Sleeper/Elements");
+  s.order = static_cast<int>(v.integer("Sleeper/Order"));
+  s.pad_thickness = v.number("Sleeper/Pad thickness");
+  s.pad_modulus = v.number("Sleeper/Pad modulus");
+  s.pad_poisson = v.number("Sleeper/Pad Poisson");
+  s.pad_density = v.number("Sleeper/Pad density");
+  s.seats = v.numbers("Sleeper/Seats");
+  s.seat_length = v.number("Sleeper/Seat length");
+  s.seat_width = v.number("Sleeper/Seat width");
+  s.vertical_only = v.boolean("Sleeper/Vertical only");
+  s.mesh = v.text("Sleeper/Mesh");
+  return s;
+}
+
+SubgradeScene subgrade(const Values& v) {
+  SubgradeScene s{};
+  s.model = v.text("Subgrade/Model");
+  s.depth = v.number("Subgrade/Depth");
+  s.layers = v.text("Subgrade/Layers");
+  s.elements = v.numbers("Subgrade/Elements");
+  s.element_size = v.number("Subgrade/Element size");
+  s.order = static_cast<int>(v.integer("Subgrade/Order"));
+  s.friction = v.number("Subgrade/Friction");
+  s.mesh = v.text("Subgrade/Mesh");
+  return s;
+}
+
+LoadingScene loading(const Values& v) {
+  LoadingScene l{};
+  l.least = v.number("Loading/Least");
+  l.largest = v.number("Loading/Largest");
+  l.frequency = v.number("Loading/Frequency");
+  l.cycles = static_cast<int>(v.integer("Loading/Cycles"));
+  l.ramp_time = v.number("Loading/Ramp time");
+  l.waveform = v.text("Loading/Waveform");
+  return l;
+}
+
+NumericsScene numerics(const Values& v) {
+  NumericsScene n{};
+  n.margin = v.number("Numerics/Margin");
+  n.packing_margin = v.number("Numerics/Packing margin");
+  n.time_step = v.number("Numerics/Time step");
+  n.spectral_radius = v.number("Numerics/Spectral radius");
+  n.closure = v.number("Numerics/Closure");
+  n.structure_inertia = v.boolean("Numerics/Structure inertia");
+  n.mirror_noise = v.number("Numerics/Mirror noise");
+  return n;
+}
+
+OutputScene output(const Values& v) {
+  OutputScene o{};
+  o.samples_per_cycle = static_cast<int>(v.integer("Output/Samples per cycle"));
+  o.snapshot_interval = v.number("Output/Snapshot interval");
+  o.checkpoint_interval = v.number("Output/Checkpoint interval");
+  o.structure_fields = v.boolean("Output/Structure fields");
+  return o;
+}
+
+/// Meshes are given relative to the scene's file; from here on they are absolute, so that
+/// scene.resolved.prm can be run from anywhere.
+void make_absolute(std::vector<SceneEntry>& entries) {
+  namespace fs = std::filesystem;
+  for (auto& entry : entries)
+    if (entry.key == "Mesh" && !entry.value.empty() && fs::path(entry.value).is_relative()) {
+      const auto folder = entry.line > 0 ? fs::path(entry.file).parent_path() : fs::path();
+      entry.value = fs::absolute(folder / entry.value).lexically_normal().string();
+    }
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& file, const std::vector<std::string>& overrides) {
+  auto entries = read_scene_text(file);
+  for (const auto& text : overrides) entries.push_back(parse_override(text));
+  make_absolute(entries);
+  const Values values(scene_parameters(), entries);
+  Scene scene{};
+  scene.title = values.text("Title");
+  scene.name = std::filesystem::path(file).stem().string();
+  scene.file = file;
+  scene.values = values.all();
+  scene.resolved = values.printed();
+  scene.container = container(values);
+  scene.grains = grains(values);
+  scene.gradation = gradation(values);
+  scene.contact = contact(values);
+  scene.packing = packing(values);
+  scene.sleeper = sleeper(values);
+  scene.subgrade = subgrade(values);
+  scene.loading = loading(values);
+  scene.numerics = numerics(values);
+  scene.output = output(values);
+  check_scene(scene, values);
+  return scene;
+}
+
+}  // namespace trackbed::apps
