@@ -1,0 +1,220 @@
+// exact_sieve_size of sieve_size.h.
+//
+// f* = min over orthonormal (u, v) of max(w(u), w(v)) = min over u of max(w(u), g(u)), where
+// g(u) = min over v orthogonal to u of w(v) is the least width of the shadow along u; it is
+// attained with a side of the shadow, that is v = e x u for a silhouette edge e. By symmetry of u
+// and v it is enough to search where w(u) >= g(u): otherwise exchange the two. Without that, a box
+// 64 x 30 x 100 has a whole arc of optimal u; with it optima are isolated corners, towards which
+// bounds close in linearly.
+//
+// Bounds for all u' within the angle t of u, from w(u) = max of d.u over differences d of vertices:
+//   d.u' >= d.u cos t - |d - (d.u)u| sin t                           w(u') >= the largest of these
+//   w(u') <= w(u) cos t + sqrt(D^2 - w^2) sin t                      D = diameter of the grain
+//   g(u'): any v' orthogonal to u' lies within t of some v orthogonal to u. Between two silhouette
+//   edges one difference d is active and its bound rises with d.v, so the least bound is found at
+//   the silhouette edges, with the longest of the differences active there.
+#if defined(__GNUC__) && !defined(__clang__)  // a false alarm from the vector headers of GCC 12
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/error.h"
+#include "dem/grading/shadow.h"
+#include "dem/grading/sieve_size.h"
+
+namespace trackbed::dem {
+namespace {
+
+// As |cos|, but the interval may reach the maximum: largest and least value of R cos over
+// angles within t of the one where it is `value` (R >= value >= 0).
+double lowest(double value, double radius2, double c, double s) {
+  return value * c - std::sqrt(std::max(0.0, radius2 - value * value)) * s;
+}
+double highest(double value, double radius2, double c, double s) {
+  if (value * value >= radius2 * c * c) return std::sqrt(radius2);
+  return value * c + std::sqrt(std::max(0.0, radius2 - value * value)) * s;
+}
+
+struct Cell {
+  int face;           // of the cube map, u ~ axis + a e1 + b e2
+  double a, b, half;  // centre and half edge in the chart
+  double bound;       // certified below every value inside
+};
+
+// Value and bounds at u for the cap of cosine c, sine s.
+struct Bounds {
+  double w = 0, g = 0;
+  double w_low = 0, w_high = 0, g_low = 0;
+  Vec3 v = Vec3::Zero();
+};
+
+class Search {
+ public:
+  explicit Search(const Polyhedron& body) : body_(body), n_(int(body.vertices.size())), dot_(n_) {
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : body.vertices) middle += p / double(n_);
+    x_.resize(n_, 3);
+    for (int i = 0; i < n_; ++i) x_.row(i) = body.vertices[i] - middle;
+    for (const Vec3& a : face_areas(body)) normals_.push_back(a);
+    std::map<std::pair<int, int>, int> owner;
+    for (int f = 0; f < int(body.faces.size()); ++f) {
+      const auto& face = body.faces[f];
+      for (size_t k = 0; k < face.size(); ++k) owner[{face[k], face[(k + 1) % face.size()]}] = f;
+    }
+    for (const auto& [edge, f] : owner) {
+      const auto other = owner.find({edge.second, edge.first});
+      if (other == owner.end()) throw InputError("sieve size: the surface is not closed");
+      if (edge.first < edge.second)
+        edges_.push_back(
+            {f, other->second, body.vertices[edge.second] - body.vertices[edge.first]});
+    }
+    for (int i = 0; i < n_; ++i)
+      diameter2_ =
+          std::max(diameter2_, (x_.rowwise() - x_.row(i)).rowwise().squaredNorm().maxCoeff());
+    side_.resize(normals_.size());
+    best_.size = std::numeric_limits<double>::infinity();
+  }
+
+  ExactSieveSize run(double tolerance);
+
+ private:
+  struct Edge {
+    int left, right;  // faces
+    Vec3 e;
+  };
+
+  static Vec3 direction(int face, double a, double b) {
+    Vec3 u;
+    u[face] = 1, u[(face + 1) % 3] = a, u[(face + 2) % 3] = b;
+    return u.normalized();
+  }
+
+  // Width along d and the longest difference of vertices among those that attain it.
+  double width(const Vec3& d, double& longest2) {
+    dot_.noalias() = x_ * d;
+    const double high = dot_.maxCoeff(), low = dot_.minCoeff();
+    const double tie = 1e-9 * (high - low) + 1e-14 * std::sqrt(diameter2_);
+    top_.clear(), bottom_.clear();
+    for (int i = 0; i < n_; ++i) {
+      if (dot_[i] >= high - tie) top_.push_back(i);
+      if (dot_[i] <= low + tie) bottom_.push_back(i);
+    }
+    longest2 = 0;
+    for (int i : top_)
+      for (int j : bottom_) longest2 = std::max(longest2, (x_.row(i) - x_.row(j)).squaredNorm());
+    return high - low;
+  }
+
+  Bounds evaluate(const Vec3& u, double c, double s) {
+    Bounds r;
+    double longest2 = 0;
+    r.w = width(u, longest2);
+    r.w_low = lowest(r.w, longest2, c, s);
+    r.w_high = highest(r.w, diameter2_, c, s);
+    ++best_.evaluations;
+    if (r.w_low >= best_.size) return r;  // w alone rules it out
+    r.g = r.g_low = std::numeric_limits<double>::infinity();
+    for (size_t f = 0; f < normals_.size(); ++f) side_[f] = normals_[f].dot(u);
+    for (const Edge& edge : edges_) {
+      if ((side_[edge.left] > 0) == (side_[edge.right] > 0)) continue;
+      Vec3 v = edge.e.cross(u);
+      const double length = v.norm();
+      if (length <= 1e-12 * edge.e.norm()) continue;  // along u: a corner of the shadow, no side
+      v /= length;
+      const double wv = width(v, longest2);
+      if (wv < r.g) r.g = wv, r.v = v;
+      r.g_low = std::min(r.g_low, lowest(wv, longest2, c, s));
+    }
+    const double value = std::max(r.w, r.g);
+    if (value < best_.size) best_.size = value, best_.u = u, best_.v = r.v;
+    return r;
+  }
+
+  // Walks downhill from u with shrinking steps; the value falls linearly to a corner.
+  void descend(Vec3 u, double step) {
+    double value = value_at(u);
+    for (; step > 1e-12; step *= 0.5) {
+      for (bool moved = true; moved;) {
+        moved = false;
+        const Vec3 e1 = u.unitOrthogonal(), e2 = u.cross(e1);
+        for (int k = 0; k < 12; ++k) {
+          const double t = k * (2 * M_PI / 12);
+          const Vec3 next = (u + step * (std::cos(t) * e1 + std::sin(t) * e2)).normalized();
+          const double there = value_at(next);
+          if (there < value - 1e-3 * step * value) {
+            value = there, u = next, moved = true;
+            break;
+          }
+        }
+      }
+    }
+  }
+  double value_at(const Vec3& u) {
+    const Bounds b = evaluate(u, 1, 0);
+    return b.w >= best_.size ? b.w : std::max(b.w, b.g);
+  }
+
+  const Polyhedron& body_;
+  int n_;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> x_;
+  Eigen::VectorXd dot_;
+  std::vector<Vec3> normals_;
+  std::vector<double> side_;
+  std::vector<Edge> edges_;
+  std::vector<int> top_, bottom_;
+  double diameter2_ = 0;
+  ExactSieveSize best_;
+};
+
+ExactSieveSize Search::run(double tolerance) {
+  std::vector<Cell> level, next;
+  const int n = 4;  // cells along an edge of a face of the cube map; u and -u are the same
+  for (int face = 0; face < 3; ++face)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        level.push_back({face, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1, 1.0 / n, 0});
+  double pruned = std::numeric_limits<double>::infinity();  // least bound of what was given up
+  for (int depth = 0; depth < 48 && !level.empty(); ++depth) {
+    next.clear();
+    const double before = best_.size;
+    for (const Cell& cell : level) {
+      if (cell.bound >= best_.size * (1 - tolerance)) {
+        pruned = std::min(pruned, cell.bound);
+        continue;
+      }
+      const Vec3 u = direction(cell.face, cell.a, cell.b);
+      // The chart shrinks lengths: the cap of angle half*sqrt2 about the centre holds the cell.
+      const double t = cell.half * std::sqrt(2.0);
+      const Bounds r = evaluate(u, std::cos(t), std::sin(t));
+      const double bound = std::max(r.w_low, r.g_low);
+      if (bound >= best_.size * (1 - tolerance)) {
+        pruned = std::min(pruned, bound);
+        continue;
+      }
+      if (r.w_high < r.g_low) continue;  // covered with u and v exchanged
+      const double h = 0.5 * cell.half;
+      for (int k = 0; k < 4; ++k)
+        next.push_back({cell.face, cell.a + (k & 1 ? h : -h), cell.b + (k & 2 ? h : -h), h, bound});
+    }
+    if (best_.size < before) descend(best_.u, 0.5 / n * std::pow(0.5, depth));
+    std::swap(level, next);
+    if (level.size() > 1000000) break;
+  }
+  for (const Cell& cell : level) pruned = std::min(pruned, cell.bound);
+  best_.lower_bound = std::min(best_.size, pruned);
+  return best_;
+}
+
+}  // namespace
+
+ExactSieveSize exact_sieve_size(const Polyhedron& body, double tolerance) {
+  mass_properties(body);  // throws when it is no solid
+  return Search(body).run(tolerance);
+}
+
+}  // namespace trackbed::dem
