@@ -46,8 +46,8 @@ struct PatchContacts {
 };
 
 /// As for Pairs: all that a checkpoint must hold.
-template <class P, class F>
-void for_each_array(P& p, F&& f, decltype(&std::remove_const_t<P>::node_travel) = nullptr) {
+template <class F>
+void for_each_array(PatchContacts& p, F&& f) {
   f("grain", p.grain), f("first", p.first), f("cell", p.cell), f("shift", p.shift);
   f("axis", p.axis), f("wake", p.wake);
   f("friction", p.friction), f("arm", p.arm), f("friction_stiffness", p.friction_stiffness);

@@ -1,0 +1,165 @@
+#include "coupling/checkpoint.h"
+
+#include "base/error.h"
+
+namespace trackbed::coupling {
+namespace {
+
+// One visitor a struct, for both directions.
+
+template <class A>
+void visit(A& archive, dem::Bodies& b) {
+  archive("bodies/grains", b.grains);
+  archive("bodies/x", b.x), archive("bodies/q", b.q), archive("bodies/v", b.v);
+  archive("bodies/L", b.L), archive("bodies/omega", b.omega), archive("bodies/turn", b.turn);
+  archive("bodies/force", b.force), archive("bodies/torque", b.torque);
+  archive("bodies/applied_force", b.applied_force);
+  archive("bodies/mass", b.mass), archive("bodies/inertia", b.inertia);
+  archive("bodies/shape", b.shape), archive("bodies/material", b.material);
+  archive("bodies/freedom", b.freedom);
+}
+
+// All shapes in one set of arrays.
+struct FlatShapes {
+  std::vector<int> vertices, faces, face_sizes, loops;
+  std::vector<dem::Vec3> vertex, inertia, origin;
+  std::vector<dem::Quat> turn;
+  std::vector<double> volume, radius, sieve_size;
+};
+
+template <class A>
+void visit(A& archive, FlatShapes& s) {
+  archive("shapes/vertices", s.vertices), archive("shapes/faces", s.faces);
+  archive("shapes/face_sizes", s.face_sizes), archive("shapes/loops", s.loops);
+  archive("shapes/vertex", s.vertex), archive("shapes/inertia", s.inertia);
+  archive("shapes/origin", s.origin), archive("shapes/turn", s.turn);
+  archive("shapes/volume", s.volume), archive("shapes/radius", s.radius);
+  archive("shapes/sieve_size", s.sieve_size);
+}
+
+FlatShapes flatten(const dem::ShapeTable& table) {
+  FlatShapes f;
+  for (int k = 0; k < table.size(); ++k) {
+    const dem::GrainShape& s = table.shape(k);
+    f.vertices.push_back(static_cast<int>(s.body.vertices.size()));
+    f.faces.push_back(static_cast<int>(s.body.faces.size()));
+    f.vertex.insert(f.vertex.end(), s.body.vertices.begin(), s.body.vertices.end());
+    for (const auto& face : s.body.faces) {
+      f.face_sizes.push_back(static_cast<int>(face.size()));
+      f.loops.insert(f.loops.end(), face.begin(), face.end());
+    }
+    f.inertia.push_back(s.inertia), f.origin.push_back(s.origin), f.turn.push_back(s.turn);
+    f.volume.push_back(s.volume), f.radius.push_back(s.radius);
+    f.sieve_size.push_back(s.sieve_size);
+  }
+  return f;
+}
+
+dem::ShapeTable unflatten(const FlatShapes& f) {
+  dem::ShapeTable table;
+  std::size_t vertex = 0, face = 0, loop = 0;
+  for (std::size_t k = 0; k < f.vertices.size(); ++k) {
+    dem::GrainShape s;
+    for (int i = 0; i < f.vertices[k]; ++i) s.body.vertices.push_back(f.vertex[vertex++]);
+    for (int i = 0; i < f.faces[k]; ++i) {
+      s.body.faces.emplace_back();
+      for (int j = 0; j < f.face_sizes[face]; ++j) s.body.faces.back().push_back(f.loops[loop++]);
+      ++face;
+    }
+    s.inertia = f.inertia[k], s.origin = f.origin[k], s.turn = f.turn[k];
+    s.volume = f.volume[k], s.radius = f.radius[k], s.sieve_size = f.sieve_size[k];
+    table.add(s);
+  }
+  return table;
+}
+
+template <class A>
+void visit(A& archive, EnergyFlows& f, EnergyStores& s) {
+  std::vector<double> v{f.work,    f.prescribed, f.friction, f.local_damping,
+                        s.kinetic, s.gravity,    s.contact,  s.structure};
+  archive("ledger", v);
+  if (v.size() != 8) throw InputError("checkpoint: 'ledger' has another length");
+  f.work = v[0], f.prescribed = v[1], f.friction = v[2], f.local_damping = v[3];
+  s.kinetic = v[4], s.gravity = v[5], s.contact = v[6], s.structure = v[7];
+}
+
+template <class A>
+void visit(A& archive, const std::string& at, Surface& s) {
+  archive(at + "node", s.patch.node), archive(at + "velocity", s.patch.velocity);
+  archive(at + "force", s.patch.force), archive(at + "last_force", s.last_force);
+  archive(at + "work_predicted", s.work_predicted);
+  archive(at + "node_travel", s.contacts.node_travel);
+  archive(at + "searched_at", s.contacts.searched_at);
+  std::vector<double> e{s.start.kinetic,    s.start.strain,       s.start.gravity,
+                        s.start.work_loads, s.start.work_surface, s.start.dissipated_damping,
+                        s.start.numerical,  s.start.at_start};
+  archive(at + "start", e);
+  if (e.size() != 8) throw InputError("checkpoint: '" + at + "start' has another length");
+  s.start = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7]};
+  dem::for_each_array(s.contacts,
+                      [&](const char* name, auto& v) { archive(at + "contacts/" + name, v); });
+}
+
+template <class A>
+void visit_all(A& archive, World& w) {
+  archive("time", w.time);
+  int step = static_cast<int>(w.step);
+  archive("step", step);
+  w.step = step;
+  visit(archive, w.bodies);
+  dem::for_each_array(w.pairs,
+                      [&](const char* name, auto& v) { archive(std::string("pairs/") + name, v); });
+  dem::Candidates::State c = w.candidates.state();
+  int rebuilds = static_cast<int>(c.rebuilds);
+  archive("candidates/skin", c.skin), archive("candidates/rebuilds", rebuilds);
+  archive("candidates/travel", c.travel), archive("candidates/travel_search", c.travel_search);
+  c.rebuilds = rebuilds;
+  w.candidates.restore(c);
+  visit(archive, w.flows, w.start);
+}
+
+std::string at(std::size_t k) { return "surface_" + std::to_string(k) + "/"; }
+
+}  // namespace
+
+void write_world(ArchiveWriter& archive, World& w) {
+  FlatShapes shapes = flatten(w.shapes);
+  visit(archive, shapes);
+  visit_all(archive, w);
+  int surfaces = static_cast<int>(w.surfaces.size());
+  archive("surfaces", surfaces);
+  for (std::size_t k = 0; k < w.surfaces.size(); ++k) {
+    visit(archive, at(k), w.surfaces[k]);
+    std::vector<double> state;
+    w.surfaces[k].structure->save(state);
+    archive(at(k) + "structure", state);
+  }
+}
+
+void read_world(ArchiveReader& archive, World& w) {
+  FlatShapes shapes;
+  visit(archive, shapes);
+  w.shapes = unflatten(shapes);
+  visit_all(archive, w);
+  w.bodies.R.resize(w.bodies.size());
+  for (int i = 0; i < w.bodies.size(); ++i) w.bodies.R[i] = w.bodies.q[i].toRotationMatrix();
+  w.pairs.index_bodies(w.bodies.size());
+}
+
+void read_surfaces(ArchiveReader& archive, World& w) {
+  int surfaces = 0;
+  archive("surfaces", surfaces);
+  if (surfaces != static_cast<int>(w.surfaces.size()))
+    throw InputError("checkpoint: it holds " + std::to_string(surfaces) +
+                     " deforming surfaces, the scene " + std::to_string(w.surfaces.size()));
+  for (std::size_t k = 0; k < w.surfaces.size(); ++k) {
+    Surface& s = w.surfaces[k];
+    visit(archive, at(k), s);
+    s.contacts.nodal.assign(s.contacts.size(), {});
+    std::vector<double> state;
+    archive(at(k) + "structure", state);
+    s.structure->load(state);
+  }
+}
+
+}  // namespace trackbed::coupling

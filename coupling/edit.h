@@ -1,0 +1,33 @@
+// Changing which bodies a world holds, between stages: grains dropped in, plate off, sleeper in.
+// Contact history of all pairs that remain is kept.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "coupling/world.h"
+
+namespace trackbed::coupling {
+
+/// Puts the bodies in a new order and drops those not in it: new body k is old body order[k];
+/// `grains` of them are grains, which must come first.
+void reorder(World&, const std::vector<int>& order, int grains);
+
+/// Adds grains of the given shapes at rest; they follow the grains already there.
+void add_grains(World&, const std::vector<dem::GrainShape>&, const std::vector<dem::Vec3>& centre,
+                const std::vector<dem::Quat>& turn, double density, int material);
+
+/// A rigid convex body: the pose is that of the frame its polyhedron is given in.
+struct RigidBody {
+  dem::Polyhedron shape;
+  dem::Vec3 place = dem::Vec3::Zero();
+  double density = 0;  ///< [kg/m3]
+  int material = 0;
+  std::uint8_t freedom = dem::kFixed;
+};
+/// Returns its index, which holds until the next change.
+int add_rigid_body(World&, const RigidBody&);
+
+/// Removes the rigid bodies whose index is in `bodies`.
+void remove_bodies(World&, const std::vector<int>& bodies);
+
+}  // namespace trackbed::coupling
