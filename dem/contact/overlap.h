@@ -1,6 +1,25 @@
 // Overlap of two convex polyhedra by clipping: volume, moments, and the pieces of both
 // boundaries that bound it. Everything is computed in a contact frame whose third axis is the
 // expected normal, so that flat overlaps (depth 1e-9 of the contact's width) keep their digits.
+//
+// Method. The boundary of the overlap of a and b is a's faces inside b and b's faces inside a. Only
+// what lies in the common slab, between b's lowest and a's highest point along the frame's normal,
+// can meet: faces outside it are never touched, and of those inside only the planes that cut the
+// other body's part of the slab are clipped with (Sutherland & Hodgman, CACM 17, 1974). Moments
+// follow from the divergence theorem about a point inside the overlap, so that all terms have one
+// sign and flat overlaps keep their relative accuracy. Where faces of a and b with the same outward
+// normal coincide, the surface belongs to a alone (both are clipped by the difference of the two
+// planes, which has the same sign for both bodies up to rounding of the difference itself).
+//
+// A pair is used like this:
+//   workspace.clear();
+//   OverlapMoments moments;
+//   const ContactFrame frame = contact_frame(a, pa, b, pb, axis);
+//   if (overlap(a, pa, b, pb, frame, workspace, moments)) {
+//     const OverlapShape shape = make_shape(moments, workspace);
+//     const NormalResponse response = law(shape, material);
+//     const PressureForce f = integrate_pressure(workspace, workspace.a_pieces, shape, response);
+//   }
 #pragma once
 #include <vector>
 
@@ -34,12 +53,32 @@ struct OverlapPiece {
 struct OverlapWorkspace {
   std::vector<Vec3> points;
   std::vector<OverlapPiece> a_pieces, b_pieces;
+
+  void clear() { points.clear(), a_pieces.clear(), b_pieces.clear(); }
+
+  // Scratch of overlap(): what is inside the slab of one body, and two polygons.
+  struct Cap {
+    std::vector<double> x, y, z;                          // all vertices
+    std::vector<double> px, py, pz;                       // corners of the part in the slab
+    std::vector<double> nx, ny, nz, offset, most, least;  // planes of the faces in the slab
+    std::vector<int> face;                                // those faces
+    std::vector<std::uint64_t> bits;
+    int corners = 0, faces = 0;
+  } cap_a, cap_b;
+  struct Polygon {
+    std::vector<double> x, y, z;
+    int n = 0;
+  } polygon[2];
+  std::vector<double> distance;
 };
 
-/// Moments of the overlap about the frame's origin, in frame axes: volume [m3], first [m4],
-/// second int x x^T dV [m5]. They add up over the cells of a shell.
+/// Moments of the overlap about the point `about`, in frame axes: volume [m3], first
+/// int (x-about) dV [m4], second int (x-about)(x-about)^T dV [m5]. They add up over the cells of a
+/// shell: the first overlap found (volume still 0) sets `about`, a point inside it, the others
+/// keep it.
 struct OverlapMoments {
   double volume = 0;
+  Vec3 about = Vec3::Zero();  ///< frame coordinates [m]
   Vec3 first = Vec3::Zero();
   Mat3 second = Mat3::Zero();
 };
@@ -50,12 +89,15 @@ struct OverlapMoments {
 double separating_axis(const ConvexView& a, const Pose&, const ConvexView& b, const Pose&,
                        Vec3& axis);
 
-/// A frame for the pair with third axis `axis`, origin in the middle of the bodies' common slab.
+/// A frame for the pair, origin in the middle of the bodies' common slab. Its third axis is `axis`
+/// (any length), or, when a face's normal lies within 8 degrees of it, that normal: flat overlaps
+/// lie between nearly parallel faces. For the normal of friction use the area vector of the pieces.
 ContactFrame contact_frame(const ConvexView& a, const Pose&, const ConvexView& b, const Pose&,
                            const Vec3& axis);
 
 /// Clips a's faces by b's planes and b's by a's. Appends to the workspace's pieces (the caller
-/// clears it) and adds to `moments`. False when the bodies do not overlap.
+/// clears it) and adds to `moments`. False when the bodies do not overlap, or by less than rounding
+/// can tell (1e-15 of their size); nothing is appended then.
 bool overlap(const ConvexView& a, const Pose&, const ConvexView& b, const Pose&,
              const ContactFrame&, OverlapWorkspace&, OverlapMoments& moments);
 

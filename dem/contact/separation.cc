@@ -1,0 +1,216 @@
+#include "dem/contact/separation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace trackbed::dem {
+namespace {
+
+// Largest n.p over the vertices, n in body axes. Eight running maxima, so that it vectorises.
+double top(const ConvexView& v, const Vec3& n) {
+  constexpr int W = 8;
+  double best[W];
+  for (int l = 0; l < W; ++l) best[l] = -std::numeric_limits<double>::infinity();
+  int i = 0;
+  for (; i + W <= v.padded; i += W)
+    for (int l = 0; l < W; ++l) {
+      const double d = n.x() * v.x[i + l] + n.y() * v.y[i + l] + n.z() * v.z[i + l];
+      best[l] = d > best[l] ? d : best[l];
+    }
+  for (; i < v.vertices; ++i) {
+    const double d = n.x() * v.x[i] + n.y() * v.y[i] + n.z() * v.z[i];
+    best[0] = d > best[0] ? d : best[0];
+  }
+  for (int half = W / 2; half > 0; half /= 2)
+    for (int l = 0; l < half; ++l) best[l] = best[l + half] > best[l] ? best[l + half] : best[l];
+  return best[0];
+}
+
+int top_vertex(const ConvexView& v, const Vec3& n) {
+  int k = 0;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < v.vertices; ++i) {
+    const double d = n.x() * v.x[i] + n.y() * v.y[i] + n.z() * v.z[i];
+    if (d > best) best = d, k = i;
+  }
+  return k;
+}
+
+Vec3 vertex(const ConvexView& v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+// Closest point to the origin of a simplex of 1..4 points; drops the points it does not need.
+// Region tests after Ericson, Real-Time Collision Detection (2005), 5.1.
+struct Simplex {
+  Vec3 p[4] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  int n = 0;
+
+  Vec3 segment(const Vec3& a, const Vec3& b) {
+    const Vec3 ab = b - a;
+    const double t = -a.dot(ab), l = ab.squaredNorm();
+    if (t <= 0 || !(l > 0)) return keep(a);
+    if (t >= l) return keep(b);
+    p[0] = a, p[1] = b, n = 2;
+    return a + (t / l) * ab;
+  }
+  Vec3 triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, ac = c - a;
+    const double d1 = -ab.dot(a), d2 = -ac.dot(a), d3 = -ab.dot(b), d4 = -ac.dot(b),
+                 d5 = -ab.dot(c), d6 = -ac.dot(c);
+    if (d1 <= 0 && d2 <= 0) return keep(a);
+    if (d3 >= 0 && d4 <= d3) return keep(b);
+    if (d6 >= 0 && d5 <= d6) return keep(c);
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return segment(a, b);
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return segment(a, c);
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return segment(b, c);
+    const Vec3 normal = ab.cross(ac);
+    const double l = normal.squaredNorm();
+    if (!(l > 0)) return segment(a, b);
+    p[0] = a, p[1] = b, p[2] = c, n = 3;
+    return (normal.dot(a) / l) * normal;
+  }
+  // False when the origin is inside.
+  bool tetrahedron(Vec3& closest) {
+    const Vec3 q[4] = {p[0], p[1], p[2], p[3]};
+    static constexpr int side[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
+    double best = std::numeric_limits<double>::infinity();
+    Simplex nearest;
+    bool outside = false;
+    for (const auto& s : side) {
+      const Vec3 normal = (q[s[1]] - q[s[0]]).cross(q[s[2]] - q[s[0]]);
+      const double origin = -normal.dot(q[s[0]]), fourth = normal.dot(q[s[3]] - q[s[0]]);
+      if (origin * fourth > 0) continue;
+      outside = true;
+      Simplex t;
+      const Vec3 c = t.triangle(q[s[0]], q[s[1]], q[s[2]]);
+      if (c.squaredNorm() < best) best = c.squaredNorm(), nearest = t, closest = c;
+    }
+    if (outside) *this = nearest;
+    return outside;
+  }
+  bool closest(Vec3& c) {
+    if (n == 1) return c = p[0], true;
+    if (n == 2) return c = segment(p[0], p[1]), true;
+    if (n == 3) return c = triangle(p[0], p[1], p[2]), true;
+    return tetrahedron(c);
+  }
+
+ private:
+  Vec3 keep(const Vec3& a) {
+    const Vec3 kept = a;
+    p[0] = kept, n = 1;
+    return kept;
+  }
+};
+
+Vec3 unit_or(const Vec3& v, const Vec3& other) {
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!(largest > 0) || !std::isfinite(largest)) return other;
+  return (v / largest).normalized();
+}
+
+struct Pair {
+  const ConvexView &a, &b;
+  const Pose &pa, &pb;
+  Vec3 ab;  // x_b - x_a
+
+  double gap(const Vec3& n) const {
+    const Vec3 na = pa.R.transpose() * n, nb = pb.R.transpose() * n;
+    return n.dot(ab) - top(b, -nb) - top(a, na);
+  }
+  // The point of b - a that lies lowest along n.
+  Vec3 support(const Vec3& n) const {
+    const int i = top_vertex(a, pa.R.transpose() * n), k = top_vertex(b, -(pb.R.transpose() * n));
+    return ab + pb.R * vertex(b, k) - pa.R * vertex(a, i);
+  }
+};
+
+// While they overlap: the face normal of least depth is a good axis.
+void best_face(const Pair& pair, double& best, Vec3& axis) {
+  for (int f = 0; f < pair.a.faces; ++f) {
+    const Vec3 n = pair.pa.R * Vec3(pair.a.nx[f], pair.a.ny[f], pair.a.nz[f]);
+    const double g = pair.gap(n);
+    if (g > best) best = g, axis = n;
+  }
+  for (int f = 0; f < pair.b.faces; ++f) {
+    const Vec3 n = -(pair.pb.R * Vec3(pair.b.nx[f], pair.b.ny[f], pair.b.nz[f]));
+    const double g = pair.gap(n);
+    if (g > best) best = g, axis = n;
+  }
+}
+
+}  // namespace
+
+double support_gap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
+                   const Vec3& n) {
+  return Pair{a, b, pa, pb, pb.x - pa.x}.gap(n);
+}
+
+double separating_axis(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
+                       Vec3& axis) {
+  const Pair pair{a, b, pa, pb, pb.x - pa.x};
+  axis = unit_or(axis, unit_or(pair.ab, Vec3::UnitZ()));
+  double best = pair.gap(axis);
+  if (best > 0) return best;
+
+  const double noise = 1e-14 * (a.radius + b.radius);
+  Simplex simplex;
+  simplex.p[simplex.n++] = pair.support(axis);
+  for (int iteration = 0; iteration < 32; ++iteration) {
+    Vec3 closest;
+    if (!simplex.closest(closest)) break;
+    const double distance = closest.norm();
+    if (!(distance > noise)) break;
+    const Vec3 n = closest / distance;
+    const double g = pair.gap(n);
+    if (g > best) best = g, axis = n;
+    if (best >= 0.8 * distance) return best;  // an axis close to the widest gap lasts longest
+    const Vec3 w = pair.support(n);
+    bool known = false;
+    for (int k = 0; k < simplex.n; ++k) known = known || w == simplex.p[k];
+    if (known) break;
+    simplex.p[simplex.n++] = w;
+  }
+  if (!(best > 0)) best_face(pair, best, axis);
+  return best;
+}
+
+ContactFrame contact_frame(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
+                           const Vec3& axis) {
+  const Vec3 ab = pb.x - pa.x;
+  Vec3 n = unit_or(axis, unit_or(ab, Vec3::UnitZ()));
+
+  // A flat overlap lies between two nearly parallel faces: take the nearest face's own normal.
+  const Vec3 na = pa.R.transpose() * n, nb = -(pb.R.transpose() * n);
+  double nearest = 0.99;
+  int face_a = -1, face_b = -1;
+  for (int f = 0; f < a.faces; ++f) {
+    const double c = na.x() * a.nx[f] + na.y() * a.ny[f] + na.z() * a.nz[f];
+    if (c > nearest) nearest = c, face_a = f;
+  }
+  for (int f = 0; f < b.faces; ++f) {
+    const double c = nb.x() * b.nx[f] + nb.y() * b.ny[f] + nb.z() * b.nz[f];
+    if (c > nearest) nearest = c, face_b = f;
+  }
+  if (face_b >= 0)
+    n = -(pb.R * Vec3(b.nx[face_b], b.ny[face_b], b.nz[face_b]));
+  else if (face_a >= 0)
+    n = pa.R * Vec3(a.nx[face_a], a.ny[face_a], a.nz[face_a]);
+
+  ContactFrame frame;
+  // A right-handed basis that depends smoothly on n but for n.z = 0 (Duff et al., JCGT 6, 2017).
+  const double sign = std::copysign(1.0, n.z()), u = -1.0 / (sign + n.z()), w = n.x() * n.y() * u;
+  frame.axes.col(0) = Vec3(1.0 + sign * n.x() * n.x() * u, sign * w, -sign * n.x());
+  frame.axes.col(1) = Vec3(w, sign + n.y() * n.y() * u, -n.y());
+  frame.axes.col(2) = n;
+
+  // Across the normal: between the bodies, nearer to the smaller one. Along it: mid slab.
+  const double share = a.radius / (a.radius + b.radius);
+  const double upper = top(a, pa.R.transpose() * n);                 // from x_a
+  const double lower = n.dot(ab) - top(b, -(pb.R.transpose() * n));  // from x_a
+  const double along = 0.5 * (upper + lower) - share * n.dot(ab);
+  frame.origin = pa.x + share * ab + along * n;
+  return frame;
+}
+
+}  // namespace trackbed::dem
