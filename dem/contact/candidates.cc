@@ -13,14 +13,6 @@ double radius(const Bodies& b, const ShapeTable& shapes, int i) {
   return shapes.view(b.shape[i]).radius;
 }
 
-/// What to add to b's place so that it is the image nearest to a.
-Vec3 image(const Vec3& a, const Vec3& b, const Vec3& period) {
-  Vec3 shift = Vec3::Zero();
-  for (int d = 0; d < 3; ++d)
-    if (period[d] > 0) shift[d] = -period[d] * std::round((b[d] - a[d]) / period[d]);
-  return shift;
-}
-
 /// Box i moved by `shift` against box j.
 template <class Box>
 bool meet(const Box& i, const Box& j, const Vec3& shift) {
@@ -105,7 +97,7 @@ void Candidates::search_grains(const Bodies& b, const StepContext& c) {
   for (int cell = 0; cell < grid.cells(); ++cell)
     grid.for_each_near(cell, [&](int i, int j) {
       if (i < j && !both_held(b, i, j) &&
-          meet(boxes_[i], boxes_[j], image(b.x[i], b.x[j], c.period)))
+          meet(boxes_[i], boxes_[j], nearest_image(b.x[i], b.x[j], c.period)))
         rows[cell].push_back({i, j});
     });
   for (const auto& row : rows) found_.insert(found_.end(), row.begin(), row.end());
@@ -116,7 +108,7 @@ void Candidates::search_rigid(const Bodies& b, const ShapeTable& shapes, const S
     const ConvexView body = shapes.view(b.shape[r]);
     for (int i = 0; i < (settings_.rigid_pairs ? r : b.grains); ++i) {
       if (both_held(b, i, r)) continue;
-      const Vec3 shift = image(b.x[i], b.x[r], c.period);
+      const Vec3 shift = nearest_image(b.x[i], b.x[r], c.period);
       if (!meet(boxes_[i], boxes_[r], shift)) continue;
       if (outside_a_face(body, b.R[r], b.x[r] + shift, b.x[i], radius(b, shapes, i) + state_.skin))
         continue;

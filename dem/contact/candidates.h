@@ -41,6 +41,7 @@ class Candidates {
   const State& state() const { return state_; }
   void restore(const State& s) { state_ = s; }
   const std::vector<double>& travel() const { return state_.travel; }
+  double skin() const { return state_.skin; }
 
  private:
   struct Box {

@@ -33,8 +33,9 @@ class PairMaterials {
 inline double mixed_modulus(double e1, double e2) { return 2 * e1 * e2 / (e1 + e2); }
 
 /// An evaluation chosen by name: fills the result slots and advances the history of all pairs.
-/// `travel` is Candidates::travel(). Friction moves by the displacement of the step that led here
-/// (v, turn, dt after drift).
+/// `travel` is Candidates::travel(). Friction moves by the step that led here (v, turn after
+/// drift, times dt); with dt = 0 no step led here and friction stays: the first evaluation of a
+/// stage.
 struct PairForces {
   using Evaluate = void (*)(const Bodies&, const ShapeTable&, const PairMaterials&,
                             const StepContext&, const std::vector<double>& travel, Pairs&);

@@ -1,6 +1,7 @@
 // Pairs of bodies that touch or may soon touch: history that lives on from step to step, and the
 // results of the last evaluation. Structure of arrays, sorted by (a, b), a < b.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -67,6 +68,14 @@ void for_each_array(Pairs& p, F&& f) {
 template <class F>
 void for_each_array(const Pairs& p, F&& f) {
   for_each_pair_array(p, f);
+}
+
+/// What to add to the place of a body at b so that it is the image nearest to a.
+inline Vec3 nearest_image(const Vec3& a, const Vec3& b, const Vec3& period) {
+  Vec3 shift = Vec3::Zero();
+  for (int d = 0; d < 3; ++d)
+    if (period[d] > 0) shift[d] = -period[d] * std::round((b[d] - a[d]) / period[d]);
+  return shift;
 }
 
 /// Number of touching pairs.

@@ -1,0 +1,107 @@
+// The pair loop for one law, with or without friction. Included by the files that make the
+// instances, nowhere else.
+#pragma once
+#include <omp.h>
+
+#include "dem/contact/friction.h"
+#include "dem/contact/pair_forces.h"
+#include "dem/contact/pressure.h"
+
+namespace trackbed::dem {
+
+inline void release(Pairs& pairs, int p) {
+  if (!pairs.touching[p] && pairs.friction_loss[p] == 0) return;
+  pairs.touching[p] = 0;
+  for (auto* v : {&pairs.friction, &pairs.force, &pairs.couple, &pairs.normal_force})
+    (*v)[p].setZero();
+  // What the tangential spring still held is lost with the contact.
+  pairs.friction_loss[p] = pairs.friction_energy[p];
+  for (auto* v : {&pairs.friction_stiffness, &pairs.energy, &pairs.friction_energy, &pairs.area,
+                  &pairs.depth, &pairs.stiffness})
+    (*v)[p] = 0;
+}
+
+template <class Law, bool friction>
+void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
+                   const StepContext& c, const std::vector<double>& travel, OverlapWorkspace& work,
+                   Pairs& pairs, int p) {
+  const int i = pairs.a[p], j = pairs.b[p];
+  const ConvexView va = shapes.view(b.shape[i]), vb = shapes.view(b.shape[j]);
+  const Pose pa{b.R[i], b.x[i]};
+  const Pose pb{b.R[j], b.x[j] + nearest_image(b.x[i], b.x[j], c.period)};
+
+  // Touching pairs go straight to the overlap with their last normal.
+  Vec3& axis = pairs.axis[p];
+  OverlapMoments moments;
+  ContactFrame frame;
+  const auto overlaps = [&] {
+    frame = contact_frame(va, pa, vb, pb, axis);
+    work.points.clear(), work.a_pieces.clear(), work.b_pieces.clear();
+    moments = OverlapMoments();
+    return overlap(va, pa, vb, pb, frame, work, moments);
+  };
+  if (!pairs.touching[p] || !overlaps()) {
+    const double gap = separating_axis(va, pa, vb, pb, axis);
+    if (gap > 0) pairs.wake[p] = travel[i] + travel[j] + gap;
+    if (gap > 0 || !overlaps()) return release(pairs, p);
+  }
+
+  const PairMaterial& material = materials(b.material[i], b.material[j]);
+  const OverlapShape shape = make_shape(moments, work, frame);
+  const NormalResponse response = Law()(shape, material);
+  const Wrench wrench = integrate_pressure(work, shape, response);
+  const Vec3 normal = frame.axes * wrench.force;
+  const double size = normal.norm();
+  const Vec3 centroid = frame.axes * shape.centroid + frame.origin;
+  const Vec3 arm_a = centroid - pa.x, arm_b = centroid - pb.x;
+  const double area = shape.area.norm();
+  if (size > 0) axis = -normal / size;
+
+  Vec3 force = normal;
+  if constexpr (friction) {
+    const bool old = pairs.touching[p];
+    ContactSlip slip{Vec3::Zero(), Vec3::Zero()};
+    if (c.dt > 0)
+      slip = contact_slip(c.dt, b.v[i], b.turn[i], old ? pairs.arm_a[p] : arm_a, arm_a, b.v[j],
+                          b.turn[j], old ? pairs.arm_b[p] : arm_b, arm_b);
+    const FrictionResult result = advance_friction(material, axis, size, area, slip,
+                                                   pairs.friction[p], pairs.friction_stiffness[p]);
+    force += pairs.friction[p];
+    pairs.friction_energy[p] = result.stored;
+    pairs.friction_loss[p] = result.dissipated;
+  }
+  pairs.touching[p] = 1;
+  pairs.arm_a[p] = arm_a;
+  pairs.arm_b[p] = arm_b;
+  pairs.force[p] = force;
+  pairs.couple[p] = frame.axes * wrench.moment;
+  pairs.normal_force[p] = normal;
+  pairs.energy[p] = response.energy;
+  pairs.area[p] = area;
+  pairs.depth[p] = shape.depth;
+  pairs.stiffness[p] = response.stiffness;
+}
+
+template <class Law, bool friction>
+void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
+                    const StepContext& c, const std::vector<double>& travel, Pairs& pairs) {
+  if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
+#pragma omp parallel for schedule(dynamic, 32) num_threads(c.threads) if (c.threads > 1)
+  for (int p = 0; p < pairs.size(); ++p) {
+    if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p]) {
+      pairs.friction_loss[p] = 0;
+      continue;
+    }
+    evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
+                                 pairs.workspaces[omp_get_thread_num()], pairs, p);
+  }
+}
+
+/// The two instances of a law.
+template <class Law>
+PairForces pair_forces_of(const std::string& law, bool stores_energy, bool friction) {
+  return {law, stores_energy, friction,
+          friction ? &evaluate_pairs<Law, true> : &evaluate_pairs<Law, false>};
+}
+
+}  // namespace trackbed::dem

@@ -1,0 +1,121 @@
+#include "dem/motion/time_step.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dem/contact/friction.h"
+
+namespace trackbed::dem {
+namespace {
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+Mat3 cross_matrix(const Vec3& r) {
+  Mat3 m;
+  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return m;
+}
+
+/// M^-1/2 in the directions that are free, world axes; 0 in the others.
+void inverse_root_mass(const Bodies& b, int i, Vec3& move, Mat3& turn) {
+  const int f = b.freedom[i];
+  for (int d = 0; d < 3; ++d) move[d] = (f >> d & 1) / std::sqrt(b.mass[i]);
+  turn.setZero();
+  if ((f >> 3) == 7) {
+    turn = b.R[i] * b.inertia[i].cwiseSqrt().cwiseInverse().asDiagonal() * b.R[i].transpose();
+  } else {
+    const Mat3 inertia = world_inertia(b, i);
+    for (int d = 0; d < 3; ++d)
+      if (f >> (3 + d) & 1) turn(d, d) = 1 / std::sqrt(inertia(d, d));
+  }
+}
+
+/// Largest eigenvalue of a body's bound [1/s2] and its number of contacts.
+double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
+  Mat6 sum = Mat6::Zero();
+  contacts = 0;
+  for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+    const int e = pairs.incident[k], p = e >= 0 ? e : ~e;
+    if (!pairs.touching[p]) continue;
+    ++contacts;
+    const int other = e >= 0 ? pairs.b[p] : pairs.a[p];
+    const double share = b.freedom[other] == kFixed ? 1 : 2;
+    const Vec3 n = pairs.axis[p];
+    const double kn = pairs.stiffness[p], kt = pairs.friction_stiffness[p];
+    const Mat3 normal = n * n.transpose(), tangent = Mat3::Identity() - normal;
+    const Mat3 K = kn * normal + kt * tangent;
+    const Mat3 C = cross_matrix(e >= 0 ? pairs.arm_a[p] : pairs.arm_b[p]);  // v_c = v - C omega
+    sum.topLeftCorner<3, 3>() += share * K;
+    sum.topRightCorner<3, 3>() -= share * K * C;
+    sum.bottomRightCorner<3, 3>() +=
+        share * (C.transpose() * K * C + kn * pairs.area[p] / 12 * tangent);
+  }
+  if (contacts == 0) return 0;
+  sum.bottomLeftCorner<3, 3>() = sum.topRightCorner<3, 3>().transpose();
+  Vec3 move;
+  Mat3 turn;
+  inverse_root_mass(b, i, move, turn);
+  Mat6 root = Mat6::Zero();
+  root.topLeftCorner<3, 3>() = move.asDiagonal();
+  root.bottomRightCorner<3, 3>() = turn;
+  const Mat6 bound = root * sum * root;
+  return Eigen::SelfAdjointEigenSolver<Mat6>(bound, Eigen::EigenvaluesOnly).eigenvalues()[5];
+}
+
+double largest_face(const Polyhedron& body) {
+  double most = 0;
+  for (const auto& face : body.faces) {
+    Vec3 area = Vec3::Zero();
+    for (std::size_t k = 2; k < face.size(); ++k)
+      area += (body.vertices[face[k - 1]] - body.vertices[face[0]])
+                  .cross(body.vertices[face[k]] - body.vertices[face[0]]) /
+              2;
+    most = std::max(most, area.norm());
+  }
+  return most;
+}
+
+TimeStepLimit limit_of(int body, double omega2, int contacts) {
+  return {omega2 > 0 ? 2 / std::sqrt(omega2) : HUGE_VAL, body, std::sqrt(omega2), contacts};
+}
+
+}  // namespace
+
+TimeStepLimit expected_limit(const Bodies& b, const ShapeTable& shapes, const PairMaterials& m,
+                             const ContactExpectation& expect) {
+  std::vector<double> face(shapes.size());
+  for (int s = 0; s < shapes.size(); ++s) face[s] = largest_face(shapes.shape(s).body);
+  TimeStepLimit worst = limit_of(-1, 0, 0);
+  for (int i = 0; i < b.grains; ++i) {
+    if (b.freedom[i] == kFixed) continue;
+    double stiffest = 0;  // E (1 + 2 kappa)/3
+    for (int j = 0; j < m.materials(); ++j) {
+      const PairMaterial& pair = m(b.material[i], j);
+      const double ratio = pair.friction > 0 ? pair.tangential_ratio : 0;
+      if (pair.modulus > 0) stiffest = std::max(stiffest, pair.modulus * (1 + 2 * ratio) / 3);
+    }
+    const double k = kShaoFactor * stiffest * std::sqrt(expect.area_share * face[b.shape[i]]);
+    const double r = shapes.shape(b.shape[i]).radius;
+    const double omega2 =
+        2 * expect.contacts * k * (1 / b.mass[i] + r * r / (2 * b.inertia[i].minCoeff()));
+    if (omega2 > worst.omega * worst.omega)
+      worst = limit_of(i, omega2, static_cast<int>(std::ceil(expect.contacts)));
+  }
+  return worst;
+}
+
+TimeStepLimit measured_limit(const Bodies& b, const Pairs& pairs, int threads) {
+  std::vector<double> omega2(b.size());
+  std::vector<int> contacts(b.size());
+#pragma omp parallel for schedule(dynamic, 32) num_threads(threads) if (threads > 1)
+  for (int i = 0; i < b.size(); ++i)
+    omega2[i] = b.freedom[i] == kFixed ? 0 : body_bound(b, pairs, i, contacts[i]);
+  TimeStepLimit worst = limit_of(-1, 0, 0);
+  for (int i = 0; i < b.size(); ++i)
+    if (omega2[i] > worst.omega * worst.omega) worst = limit_of(i, omega2[i], contacts[i]);
+  return worst;
+}
+
+}  // namespace trackbed::dem
