@@ -67,7 +67,7 @@ using EvaluatePatch = void (*)(const Bodies&, const ShapeTable&, const PairMater
                                const SurfacePatch&, PatchContacts&);
 
 /// Evaluation by the law's name, as make_pair_forces. Throws InputError naming the laws there are.
-EvaluatePatch make_patch_forces(const std::string& law);
+EvaluatePatch make_patch_forces(const std::string& law, bool friction);
 
 /// Adds the contacts' forces to the grains and writes SurfacePatch::force, both in fixed order.
 void sum_patch_forces(const PatchContacts&, Bodies&, SurfacePatch&);

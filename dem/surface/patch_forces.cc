@@ -1,0 +1,15 @@
+#include "dem/surface/patch_forces.h"
+
+namespace trackbed::dem {
+
+void sum_patch_forces(const PatchContacts& contacts, Bodies& b, SurfacePatch& patch) {
+  for (Vec3& f : patch.force) f.setZero();
+  for (int i = 0; i < contacts.size(); ++i) {
+    if (!contacts.touching[i]) continue;
+    b.force[contacts.grain[i]] += contacts.force[i];
+    b.torque[contacts.grain[i]] += contacts.torque[i];
+    for (const auto& [node, force] : contacts.nodal[i]) patch.force[patch.master[node]] += force;
+  }
+}
+
+}  // namespace trackbed::dem
