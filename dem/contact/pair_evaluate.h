@@ -36,7 +36,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   ContactFrame frame;
   const auto overlaps = [&] {
     frame = contact_frame(va, pa, vb, pb, axis);
-    work.points.clear(), work.a_pieces.clear(), work.b_pieces.clear();
+    work.clear();
     moments = OverlapMoments();
     return overlap(va, pa, vb, pb, frame, work, moments);
   };
@@ -47,10 +47,10 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   }
 
   const PairMaterial& material = materials(b.material[i], b.material[j]);
-  const OverlapShape shape = make_shape(moments, work, frame);
+  const OverlapShape shape = make_shape(moments, work);
   const NormalResponse response = Law()(shape, material);
-  const Wrench wrench = integrate_pressure(work, shape, response);
-  const Vec3 normal = frame.axes * wrench.force;
+  const PressureForce pressure = integrate_pressure(work, work.a_pieces, shape, response);
+  const Vec3 normal = -(frame.axes * pressure.force);
   const double size = normal.norm();
   const Vec3 centroid = frame.axes * shape.centroid + frame.origin;
   const Vec3 arm_a = centroid - pa.x, arm_b = centroid - pb.x;
@@ -74,7 +74,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   pairs.arm_a[p] = arm_a;
   pairs.arm_b[p] = arm_b;
   pairs.force[p] = force;
-  pairs.couple[p] = frame.axes * wrench.moment;
+  pairs.couple[p] = -(frame.axes * pressure.moment);
   pairs.normal_force[p] = normal;
   pairs.energy[p] = response.energy;
   pairs.area[p] = area;
@@ -99,8 +99,8 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
 
 /// The two instances of a law.
 template <class Law>
-PairForces pair_forces_of(const std::string& law, bool stores_energy, bool friction) {
-  return {law, stores_energy, friction,
+PairForces pair_forces_of(bool friction) {
+  return {Law::name, Law::stores_energy, friction,
           friction ? &evaluate_pairs<Law, true> : &evaluate_pairs<Law, false>};
 }
 

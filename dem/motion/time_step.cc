@@ -60,8 +60,9 @@ double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
   Mat6 root = Mat6::Zero();
   root.topLeftCorner<3, 3>() = move.asDiagonal();
   root.bottomRightCorner<3, 3>() = turn;
-  const Mat6 bound = root * sum * root;
-  return Eigen::SelfAdjointEigenSolver<Mat6>(bound, Eigen::EigenvaluesOnly).eigenvalues()[5];
+  const Eigen::MatrixXd bound = root * sum * root;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(bound, Eigen::EigenvaluesOnly)
+      .eigenvalues()[5];
 }
 
 double largest_face(const Polyhedron& body) {
