@@ -1,0 +1,309 @@
+"""Tests of the report: a synthetic run of random convex polyhedra, whole and damaged.
+
+    /usr/bin/python3 -m unittest plots_test            (in tests/unit)
+    /usr/bin/python3 plots_test.py --make DIR [GRAINS]   writes a synthetic run to look at
+    /usr/bin/python3 plots_test.py --make-compare DIR    writes a synthetic comparison
+"""
+import base64
+import csv
+import itertools
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+import zlib
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "apps", "plots"))
+
+import h5py  # noqa: E402
+
+import bed_picture  # noqa: E402
+import compare  # noqa: E402
+import figures  # noqa: E402
+import picture  # noqa: E402
+import raster  # noqa: E402
+import read_run  # noqa: E402
+import report  # noqa: E402
+import style  # noqa: E402
+import vtu  # noqa: E402
+
+
+# ---- a synthetic run -----------------------------------------------------------------------------------------
+
+def hull(points):
+    """Triangles of a convex hull, anticlockwise from outside, by trying every triple: for a dozen points only."""
+    middle = points.mean(axis=0)
+    found = []
+    for a, b, c in itertools.combinations(range(len(points)), 3):
+        normal = np.cross(points[b] - points[a], points[c] - points[a])
+        side = (points - points[a]) @ normal
+        if (side <= 1e-12).all() or (side >= -1e-12).all():
+            outward = normal @ (points[a] - middle) > 0
+            found.append((a, b, c) if outward else (a, c, b))
+    return np.array(found)
+
+
+def shape(rng):
+    points = rng.normal(size=(13, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    points *= rng.uniform(0.85, 1.0, (13, 1)) * np.array([1.15, 0.95, 0.8])
+    triangles = hull(points)
+    used = np.unique(triangles)
+    return points[used], np.searchsorted(used, triangles)
+
+
+def settle(rng, count, box, radius):
+    """Soft spheres that have fallen into a box: places that look like a bed."""
+    place = np.stack([rng.uniform(radius, box[k] - radius) for k in range(2)]
+                     + [rng.uniform(0.02, 2.2 * box[2], count)], axis=1)
+    speed = np.zeros_like(place)
+    for step in range(260):
+        speed[:, 2] -= 0.0006
+        gap = place[:, None] - place[None]
+        far = np.linalg.norm(gap, axis=2) + 1e-9
+        near = np.clip(0.93 * (radius[:, None] + radius[None]) - far, 0, None)
+        np.fill_diagonal(near, 0)
+        speed += 0.35 * np.einsum("ij,ijk->ik", near / far, gap)
+        speed *= 0.7
+        place += speed
+        for k in range(2):
+            place[:, k] = np.clip(place[:, k], radius, box[k] - radius)
+        place[:, 2] = np.maximum(place[:, 2], radius * 0.9)
+    return place
+
+
+def write_csv(path, header, rows):
+    with open(path, "w", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(header)
+        out.writerows(rows)
+
+
+def block(low, high, parts):
+    """Points and hexahedra of a box."""
+    axes = [np.linspace(low[k], high[k], parts[k] + 1) for k in range(3)]
+    points = np.array([[x, y, z] for z in axes[2] for y in axes[1] for x in axes[0]])
+    nx, ny = parts[0] + 1, parts[1] + 1
+
+    def at(i, j, k):
+        return i + nx * (j + ny * k)
+
+    cells = [[at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k),
+              at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)]
+             for k in range(parts[2]) for j in range(parts[1]) for i in range(parts[0])]
+    return points, np.array(cells)
+
+
+def write_vtu(path, points, cells, data, compressed=True):
+    """As deal.II writes them: every cell with points of its own, base64 with zlib blocks."""
+    own = points[cells].reshape(-1, 3)
+
+    def blob(values):
+        raw = np.ascontiguousarray(values).tobytes()
+        if compressed:
+            body = zlib.compress(raw)
+            head = np.array([1, len(raw), len(raw), len(body)], dtype="<u4").tobytes()
+            return base64.b64encode(head).decode() + base64.b64encode(body).decode()
+        return base64.b64encode(np.array([len(raw)], dtype="<u4").tobytes() + raw).decode()
+
+    def array(name, kind, values, width=1):
+        return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{width}" format="binary">\n'
+                f'{blob(values)}\n</DataArray>')
+
+    count = len(cells)
+    fields = "".join(array(name, "Float64", np.asarray(values, float)[cells].reshape(count * 8, -1),
+                           1 if np.ndim(values) == 1 else 3) for name, values in data.items())
+    zip_name = ' compressor="vtkZLibDataCompressor"' if compressed else ""
+    with open(path, "w") as file:
+        file.write(f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1"{zip_name} '
+                   f'byte_order="LittleEndian"><UnstructuredGrid>'
+                   f'<Piece NumberOfPoints="{count * 8}" NumberOfCells="{count}"><Points>'
+                   f'{array("Points", "Float64", own, 3)}</Points><Cells>'
+                   f'{array("connectivity", "Int32", np.arange(count * 8, dtype="<i4"))}'
+                   f'{array("offsets", "Int32", 8 * np.arange(1, count + 1, dtype="<i4"))}'
+                   f'{array("types", "UInt8", np.full(count, 12, dtype="u1"))}</Cells>'
+                   f'<PointData>{fields}</PointData></Piece></UnstructuredGrid></VTKFile>\n')
+
+
+def make_run(folder, grains=70, elastic=True, seed=1, nudge=0.0, cycles=12):
+    """A whole run: settlement like a·log(1+n), loops that tighten, a ledger that closes to 0.4 %."""
+    os.makedirs(folder, exist_ok=True)
+    rng = np.random.default_rng(seed)
+    to = lambda name: os.path.join(folder, name)  # noqa: E731
+    n = np.arange(1, cycles + 1)
+    soft = 1.12 if elastic else 1.0
+    wobble = rng.normal(0, 0.015, cycles).cumsum() * 0.2 + nudge
+    u_min = 1e-3 * (1.5 * np.log1p(1.3 * (n - 1)) * (1 + wobble)) / soft
+    swing = 1e-3 * soft * (1.9 - 0.55 * (1 - np.exp(-n / 4))) * (1 + rng.normal(0, 0.01, cycles) + nudge)
+    u_max = u_min + swing
+    k_up = 77e3 / swing * 0.93
+    k_down = 77e3 / swing * 1.04
+    write_csv(to("cycles.csv"), ["cycle", "time_s", "load_min_N", "load_max_N", "u_min_m", "u_max_m", "settlement_m",
+                                 "stiffness_loading_N_per_m", "stiffness_unloading_N_per_m"],
+              zip(n, 2.0 + 0.1 * n, [3e3] * cycles, [80e3] * cycles, u_min, u_max, u_min - u_min[0], k_up, k_down))
+    tamp = np.arange(1, 11)
+    density = 1400 + 120 * (1 - np.exp(-tamp / 3.5))
+    write_csv(to("compaction.csv"), ["cycle", "time_s", "height_m", "density_kg_per_m3", "porosity", "void_ratio"],
+              [(c, 1 + 0.1 * c, 0.33 * 1400 / d, d, 1 - d / 2600, 2600 / d - 1) for c, d in zip(tamp, density)])
+    rows = []
+    for t in np.linspace(0, 1, 60):
+        rows.append((t, "deposit", 0, "", 5 * np.exp(-4 * t), int(2500 * t), 5.5 * t))
+    for t in np.linspace(1, 2, 120):
+        rows.append((t, "compact", 2e4 * (1 - np.cos(2 * np.pi * 10 * t)), "", 0.05, 3000, 6.0))
+    for t in np.arange(2.0, 2.0 + 0.1 * cycles + 1e-9, 0.002):
+        c = (t - 2) / 0.1
+        share = 0.5 * (1 - np.cos(2 * np.pi * c))
+        at = 1 + min(c, cycles - 1)
+        base = np.interp(at, n, u_min)
+        lag = share ** (0.8 if c % 1 < 0.5 else 0.62)
+        rows.append((t, "load", 3e3 + 77e3 * share, base + np.interp(at, n, swing) * lag, 1e-3, 3100, 6.3))
+    write_csv(to("history.csv"), ["time_s", "stage", "load_N", "u_m", "kinetic_J", "contacts", "coordination"], rows)
+    time = np.linspace(0, 2 + 0.1 * cycles, 200)
+    friction, local = 55 * (1 - np.exp(-time / 1.2)), 70 * (1 - np.exp(-3 * time))
+    gravity = 120 * np.exp(-4 * time)
+    kinetic = 40 * time * np.exp(-5 * time)
+    contact = 3 + 2 * np.sin(2 * np.pi * time) ** 2 * (time > 1)
+    structure = 4 * np.sin(2 * np.pi * 10 * time) ** 2 * (time > 2) * elastic
+    transfer = 1e-13 * time
+    work = 60 * np.clip(time - 0.8, 0, None) / 2.4
+    closure = 0.004 * np.sin(time) * work
+    write_csv(to("energy.csv"), ["time_s", "kinetic_J", "gravity_J", "contact_J", "structure_J", "work_J",
+                                 "dissipated_friction_J", "dissipated_local_damping_J", "transfer_error_J",
+                                 "closure_J"],
+              zip(time, kinetic, gravity, contact, structure, work, friction, local, transfer, closure))
+    write_csv(to("gradation.csv"), ["sieve_m", "target_percent", "achieved_percent", "band_min_percent",
+                                    "band_max_percent"],
+              [(0.016, 0, 0, 0, 2), (0.025, 0, 0, 0, 5), (0.0355, 4, 3.6, 0, 12), (0.045, 33, 34.2, 22, 45),
+               (0.056, 79, 78.1, 65, 90), (0.063, 95, 95.6, 88, 100), (0.08, 100, 100, 100, 100)])
+    write_csv(to("timing.csv"), ["stage", "calls", "seconds", "share"],
+              [("contact geometry", 42000, 171.2, 0.46), ("candidates", 3100, 44.0, 0.118),
+               ("contact law", 42000, 38.9, 0.105), ("motion", 42000, 20.5, 0.055),
+               ("surface contact", 42000, 31.0, 0.083), ("structures", 21000, 55.3, 0.149), ("output", 240, 11.0, 0.03)])
+    write_csv(to("summary.csv"), ["quantity", "value", "unit", "meaning"],
+              [("largest overlap over grain size", 0.0083, "1", "what the softened contact modulus costs"),
+               ("time step over its limit", 0.21, "1", "below 1 the integration is stable"),
+               ("grains", grains, "1", "drawn by mass from the library"),
+               ("contact modulus", 2e9, "Pa", "knob; rock has 4e10"),
+               ("effects on", "friction; local damping (packing only)", "", "passes in the list of this run"),
+               ("effects off", "rolling resistance; absorbing boundary", "", "cost nothing")])
+    x = np.linspace(-0.13, 0.13, 27)
+    y = np.linspace(-0.15, 0.15, 31)
+    press = [(a, b, max(0, 9e5 * (1 + (0.35 if elastic else 0.75) * (a / 0.13) ** 2 * 1.2) * (0.6 + 0.4 * np.cos(9 * b))
+                        * rng.gamma(2.0, 0.5))) for a in x for b in y]
+    write_csv(to("pressure.csv"), ["x_m", "y_m", "pressure_Pa"], press)
+    s = np.linspace(-0.15, 0.15, 41)
+    if elastic:
+        write_csv(to("moment.csv"), ["x_m", "deflection_m", "moment_Nm"],
+                  zip(s, 2e-5 * np.cos(np.pi * s / 0.3), 900 * np.cos(np.pi * s / 0.3) ** 2 * (1 + nudge)))
+    with open(to("scene.resolved.prm"), "w") as file:
+        file.write("subsection Scene\n  set Title = Ballast box\nend\nsubsection Contact\n"
+                   "  set Modulus = 2e9 # Pa\nend\n")
+    make_snapshots(to("snapshots.h5"), rng, grains)
+    if elastic:
+        make_structures(folder)
+    write_csv(to("grains.csv"), ["grain", "shape", "sieve_m", "volume_m3", "mass_kg", "largest_force_N"],
+              [(g, g % 24, 0.045, 5e-5, 0.13, 900 * rng.gamma(1.5)) for g in range(grains)])
+
+
+def make_snapshots(path, rng, grains):
+    box = np.array([0.6, 0.3, 0.33 * grains / 620])
+    box[2] = max(box[2], 0.05)
+    if grains < 400:
+        box[:2] *= np.sqrt(grains / 620 * 0.33 / 0.12)
+        box[2] = 0.12
+    library = [shape(rng) for _ in range(24)]
+    radius = np.clip(rng.normal(0.0265, 0.004, grains), 0.017, 0.035)
+    place = settle(rng, grains, box, radius)
+    # Stones under and beside the sleeper only: none where the block stands.
+    points, triangles, owner, offset = [], [], [], 0
+    top = np.quantile(place[:, 2], 0.97)
+    for g in range(grains):
+        p, t = library[g % len(library)]
+        turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        turn *= np.sign(np.linalg.det(turn))
+        points.append(p @ turn.T * radius[g] * 1.12 + place[g])
+        triangles.append(t + offset)
+        owner += [g] * len(t)
+        offset += len(p)
+    points, triangles, owner = np.concatenate(points), np.concatenate(triangles), np.array(owner)
+    gap = np.linalg.norm(place[:, None] - place[None], axis=2)
+    first, second = np.nonzero(np.triu(gap < 0.99 * (radius[:, None] + radius[None]), 1))
+    middle = 0.5 * (place[first] + place[second])
+    way = place[second] - place[first]
+    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    spread = 0.06 + 0.5 * (top - middle[:, 2]).clip(0)
+    focus = np.exp(-((middle[:, 0] - box[0] / 2) / (0.15 * box[0] / 0.6 + spread * 0.5)) ** 2)
+    size = 900 * rng.gamma(0.9, 1.0, len(first)) * (0.05 + focus * (0.15 + np.abs(way[:, 2]) ** 2))
+    force = -way * size[:, None]
+    floor = np.flatnonzero(place[:, 2] < 1.1 * radius)
+    floor_point = place[floor] - np.stack([0 * floor, 0 * floor, radius[floor]], axis=1)
+    total = np.zeros(grains)
+    np.add.at(total, first, size)
+    np.add.at(total, second, size)
+    with h5py.File(path, "w") as file:
+        file.attrs["title"] = "Ballast box, synthetic"
+        mesh = file.create_group("mesh_0")
+        mesh["triangles"] = triangles.astype(np.int32)
+        mesh["triangle_grain"] = owner.astype(np.int32)
+        for k, (time, stage, load) in enumerate([(1.0, "deposit", 0.0), (3.15, "load", 80e3), (3.2, "load", 3e3)]):
+            group = file.create_group(f"snapshot_{k:04d}")
+            group.attrs["time_s"], group.attrs["stage"] = time, stage
+            group.attrs["mesh"], group.attrs["load_N"] = 0, load
+            group["points"] = points.astype(np.float32)
+            group["triangle_force"] = total[owner].astype(np.float32)
+            group["grain_position"], group["grain_velocity"] = place, np.zeros_like(place)
+            group["grain_coordination"] = np.bincount(np.r_[first, second], minlength=grains).astype(np.int32)
+            group["grain_force"] = total.astype(np.float32)
+            group["contact_point"] = np.r_[middle, floor_point].astype(np.float32)
+            group["contact_force"] = np.r_[force, np.tile([0, 0, 300.0], (len(floor), 1))].astype(np.float32)
+            group["contact_grains"] = np.r_[np.stack([first, second], axis=1),
+                                            np.stack([floor, np.full(len(floor), -1)], axis=1)].astype(np.int32)
+        file.attrs["box"] = np.r_[box, top]
+
+
+def make_structures(folder):
+    with h5py.File(os.path.join(folder, "snapshots.h5")) as file:
+        lx, ly, _, top = file.attrs["box"]
+    points, cells = block((0, 0, -0.25), (lx, ly, 0), (14, 7, 5))
+    far = ((points[:, 0] - lx / 2) / (0.3 * lx)) ** 2 + ((points[:, 1] - ly / 2) / (0.6 * ly)) ** 2
+    depth = (points[:, 2] + 0.25) / 0.25
+    down = -4e-4 * np.exp(-far) * depth
+    stress = -2.6e5 * np.exp(-far / (1.4 - 0.4 * depth)) * (0.45 + 0.55 * depth)
+    zero = np.zeros(len(points))
+    subgrade = dict(displacement=np.stack([zero, zero, down], axis=1), sigma_zz=stress, von_mises=-0.8 * stress)
+    s_points, s_cells = block((0.28 * lx, 0.05 * ly, top + 0.008), (0.72 * lx, 0.95 * ly, top + 0.13), (10, 8, 4))
+    arm = (s_points[:, 0] - lx / 2) / (0.22 * lx)
+    zero = np.zeros(len(s_points))
+    sleeper = dict(displacement=np.stack([zero, zero, -4e-3 - 3e-5 * (1 - arm ** 2)], axis=1),
+                   sigma_zz=-1.5e6 * (1 - arm ** 2), von_mises=2e6 * (1 - arm ** 2))
+    for name, (p, c, data) in dict(sleeper=(s_points, s_cells, sleeper), subgrade=(points, cells, subgrade)).items():
+        lines = []
+        for k, time in enumerate((3.15, 3.2)):
+            file = f"structure_{name}_{k:04d}.vtu"
+            write_vtu(os.path.join(folder, file), p, c, data, compressed=k == 0)
+            lines.append(f'<DataSet timestep="{time}" group="" part="0" file="{file}"/>')
+        with open(os.path.join(folder, f"structure_{name}.pvd"), "w") as file:
+            file.write('<?xml version="1.0"?><VTKFile type="Collection" version="0.1"><Collection>'
+                       + "".join(lines) + "</Collection></VTKFile>")
+
+
+def make_compare(folder, grains=60, packings=3):
+    make_run(os.path.join(folder, "rigid"), grains, False)
+    make_run(os.path.join(folder, "elastic"), grains, True)
+    make_run(os.path.join(folder, "rigid_repeat"), grains, False, nudge=0.012)
+    make_run(os.path.join(folder, "elastic_repeat"), grains, True, nudge=-0.008)
+    for p in range(2, packings + 1):
+        make_run(os.path.join(folder, f"packing_{p}", "rigid"), grains, False, seed=p)
+        make_run(os.path.join(folder, f"packing_{p}", "elastic"), grains, True, seed=p)
+
+
+if __name__ == "__main__" and len(sys.argv) > 2 and sys.argv[1].startswith("--make"):
+    if sys.argv[1] == "--make":
+        make_run(sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 70)
+    else:
+        make_compare(sys.argv[2])
+    sys.exit(0)
