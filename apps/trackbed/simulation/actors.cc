@@ -1,0 +1,197 @@
+#include "apps/trackbed/simulation/actors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/trackbed/simulation/materials.h"
+#include "apps/trackbed/simulation/structures.h"
+#include "base/error.h"
+#include "coupling/edit.h"
+#include "dem/packing/place.h"
+#include "dem/surface/rigid.h"
+
+namespace trackbed::apps {
+namespace {
+
+using dem::Vec3;
+
+constexpr double kClearance = 1e-4;  // between things put in and what is there [m]
+constexpr double kWall = 0.25;       // thickness of walls, more than the largest grain [m]
+constexpr double kTop = 5;           // of the walls, higher than any loose heap [m]
+constexpr double kPlateGap = 5e-3;   // between plate and walls [m]
+
+double largest_sieve(const dem::ShapeTable& shapes) {
+  double largest = 0;
+  for (int k = 0; k < shapes.size(); ++k) largest = std::max(largest, shapes.shape(k).sieve_size);
+  return largest;
+}
+
+double least_sieve(const dem::ShapeTable& shapes) {
+  double least = largest_sieve(shapes);
+  for (int k = 0; k < shapes.size(); ++k)
+    if (shapes.shape(k).sieve_size > 0) least = std::min(least, shapes.shape(k).sieve_size);
+  return least;
+}
+
+// A few overlaps deep: the largest that the run allows, for its smallest grain.
+double shell_depth(const Run& run) {
+  return std::max(2 * run.scene.contact.largest_overlap, 0.1) * least_sieve(run.world.shapes);
+}
+
+}  // namespace
+
+double highest_grain(const Run& run, double low_x, double high_x, double low_y, double high_y) {
+  const dem::Bodies& b = run.world.bodies;
+  double top = 0;
+  for (int i = 0; i < b.grains; ++i)
+    for (const Vec3& p : run.world.shapes.shape(b.shape[i]).body.vertices) {
+      const Vec3 x = b.x[i] + b.R[i] * p;
+      if (x.x() > low_x && x.x() < high_x && x.y() > low_y && x.y() < high_y)
+        top = std::max(top, x.z());
+    }
+  return top;
+}
+
+void pour_grains(Run& run, const std::vector<dem::GrainShape>& grains, bool beside) {
+  coupling::World& w = run.world;
+  dem::PlacementSpace space;
+  space.low = run.layout.low, space.high = run.layout.high;
+  space.period = run.layout.period;
+  dem::PlacedSpheres present;
+  if (beside) {
+    const Layout& l = run.layout;
+    space.blocks.push_back({{l.sleeper_low_x, l.sleeper_low_y, 0},
+                            {l.sleeper_high_x, l.sleeper_high_y, 0}});
+    for (int i = 0; i < w.bodies.grains; ++i) {
+      present.centre.push_back(w.bodies.x[i]);
+      present.radius.push_back(w.shapes.shape(w.bodies.shape[i]).radius);
+    }
+  }
+  std::vector<double> radii;
+  for (const dem::GrainShape& g : grains) radii.push_back(g.radius);
+  const dem::Placement p =
+      dem::place_loose(radii, space, present, 10, run.scene.grains.seed + (beside ? 77 : 0));
+  coupling::add_grains(w, grains, p.centre, p.turn, run.scene.grains.density, kGrain);
+}
+
+void add_walls(Run& run) {
+  const ContainerScene& c = run.scene.container;
+  const Layout& l = run.layout;
+  dem::Bodies& b = run.world.bodies;
+  dem::ShapeTable& shapes = run.world.shapes;
+  const Vec3 low = l.low - Vec3(0, 0, kWall), high(l.high.x(), l.high.y(), kTop);
+  const int before = b.size();
+  // Walls reach below the floor and the floor beyond the walls, so that edges are closed.
+  const auto side = [&](unsigned which, int material) {
+    dem::add_container(b, shapes, low, high, kWall, material, which);
+  };
+  side(dem::kLowX, c.half ? kMirror : kWall);
+  side(dem::kHighX, kWall);
+  if (!c.periodic) side(dem::kLowY | dem::kHighY, kWall);
+  dem::add_container(b, shapes, l.low, high, kWall, kSubgrade, dem::kBase);
+  run.actors.walls = b.size() - before;
+  run.actors.floor = true;
+}
+
+void add_plate(Run& run) {
+  const Layout& l = run.layout;
+  const PackingScene& p = run.scene.packing;
+  Vec3 low = l.low, high = l.high;
+  for (int k = 0; k < 2; ++k) {
+    const double gap = l.period[k] > 0 ? 0 : kPlateGap;
+    low[k] += gap, high[k] -= gap;
+  }
+  low.z() = highest_grain(run, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL) + kClearance;
+  high.z() = low.z() + p.plate_thickness;
+  dem::add_box(run.world.bodies, run.world.shapes, low, high, kPlate,
+               p.plate_density * (high - low).prod(), dem::kMoveZ);
+  run.actors.plate = true;
+}
+
+void add_rigid_sleeper(Run& run) {
+  const Layout& l = run.layout;
+  const SleeperScene& s = run.scene.sleeper;
+  const double base = kClearance + highest_grain(run, l.sleeper_low_x, l.sleeper_high_x,
+                                                 l.sleeper_low_y, l.sleeper_high_y);
+  const Vec3 low(l.sleeper_low_x, l.sleeper_low_y, base);
+  const Vec3 high(l.sleeper_high_x, l.sleeper_high_y, base + s.height);
+  const double pad = s.pad_thickness / s.height;
+  const double density = (1 - pad) * s.density + pad * s.pad_density;
+  const int i = dem::add_box(run.world.bodies, run.world.shapes, low, high, kSleeper,
+                             density * (high - low).prod(), dem::kMoveZ);
+  run.actors.rigid_sleeper = true;
+  run.actors.sleeper_base = base;
+  run.actors.sleeper_start = run.world.bodies.x[i].z();
+}
+
+void remove_moving_body(Run& run) {
+  coupling::remove_bodies(run.world, {moving_body(run)});
+  run.actors.plate = run.actors.rigid_sleeper = false;
+}
+
+void trim_shoulders(Run& run) {
+  if (run.scene.container.shoulder_width == 0) return;
+  const dem::Bodies& b = run.world.bodies;
+  const double base = run.actors.sleeper_base;
+  std::vector<int> outside;
+  for (int i = 0; i < b.grains; ++i) {
+    const Vec3& x = b.x[i];
+    if (std::abs(x.x()) > half_width(run.scene, base, x.z()) ||
+        x.z() > base + run.scene.container.fill_height)
+      outside.push_back(i);
+  }
+  coupling::remove_bodies(run.world, outside);
+}
+
+void build_structures(Run& run) {
+  coupling::World& w = run.world;
+  w.surfaces.clear();
+  run.actors.sleeper_surface = run.actors.subgrade_surface = -1;
+  const double depth = shell_depth(run);
+  if (run.scene.sleeper.model != "rigid") {
+    run.actors.sleeper_surface = static_cast<int>(w.surfaces.size());
+    w.surfaces.push_back(coupling::make_surface(
+        "sleeper", kSleeper, depth, 0, {0, 0, 0},
+        make_elastic_sleeper(run.scene, run.layout, run.actors.sleeper_base)));
+  }
+  if (run.scene.subgrade.model != "rigid") {
+    run.actors.subgrade_surface = static_cast<int>(w.surfaces.size());
+    w.surfaces.push_back(coupling::make_surface(
+        "subgrade", kSubgrade, depth, largest_sieve(w.shapes), run.layout.period,
+        make_elastic_subgrade(run.scene, run.layout)));
+  }
+}
+
+void place_structures(Run& run) {
+  coupling::World& w = run.world;
+  const int sleeper = moving_body(run), floor = sleeper - 1;
+  // The sleeper has come down since it was put in; what replaces it starts where it lies.
+  run.actors.sleeper_base += w.bodies.x[sleeper].z() - run.actors.sleeper_start;
+  run.actors.sleeper_start = w.bodies.x[sleeper].z();
+  build_structures(run);
+  if (run.actors.sleeper_surface >= 0)
+    remove_moving_body(run);
+  else if (run.scene.container.half)
+    w.bodies.freedom[sleeper] = dem::kMoveZ | (run.scene.sleeper.vertical_only ? 0 : dem::kMoveY | dem::kTurnX);
+  else if (!run.scene.sleeper.vertical_only)
+    w.bodies.freedom[sleeper] = dem::kFree;
+  if (run.actors.subgrade_surface >= 0) {
+    coupling::remove_bodies(w, {floor});
+    --run.actors.walls;
+    run.actors.floor = false;
+  }
+}
+
+void apply_load(Run& run, double newton) {
+  run.stage.load = newton;
+  coupling::World& w = run.world;
+  if (run.actors.sleeper_surface >= 0) {
+    fem::Structure& s = *w.surfaces[run.actors.sleeper_surface].structure;
+    for (int k = 0; k < s.loads(); ++k)
+      s.set_load(k, run.layout.share * newton / s.loads());
+  } else if (run.actors.plate || run.actors.rigid_sleeper) {
+    w.bodies.applied_force[moving_body(run)] = Vec3(0, 0, -run.layout.share * newton);
+  }
+}
+
+}  // namespace trackbed::apps

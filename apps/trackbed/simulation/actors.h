@@ -1,0 +1,42 @@
+// Bringing bodies and structures of a scene into its world and taking them out again.
+#pragma once
+#include "apps/trackbed/simulation/stage.h"
+
+namespace trackbed::apps {
+
+/// Draws, places and adds grains: under the sleeper, or (`beside`) around it.
+void pour_grains(Run&, const std::vector<dem::GrainShape>& grains, bool beside);
+
+/// Walls (a mirror where the scene is halved, none at a seam) and the rigid floor.
+void add_walls(Run&);
+
+/// The tamping plate, just above the highest grain.
+void add_plate(Run&);
+
+/// The rigid sleeper, level, just above the highest grain below it; vertical motion only, as it is
+/// lowered.
+void add_rigid_sleeper(Run&);
+
+/// Takes plate or rigid sleeper away.
+void remove_moving_body(Run&);
+
+/// Removes grains whose centre lies outside the ballast's cross-section.
+void trim_shoulders(Run&);
+
+/// Builds the structures that the scene names, where the packing's rigid sleeper and floor are,
+/// and takes those away.
+void place_structures(Run&);
+
+/// Builds the structures only: a checkpoint fills in their state.
+void build_structures(Run&);
+
+/// Plate or rigid sleeper: index of the body.
+inline int moving_body(const Run& run) { return run.world.bodies.grains + run.actors.walls; }
+
+/// The load on plate or sleeper from now on [N].
+void apply_load(Run&, double newton);
+
+/// Highest point of the grains within a plan-view rectangle [m].
+double highest_grain(const Run&, double low_x, double high_x, double low_y, double high_y);
+
+}  // namespace trackbed::apps

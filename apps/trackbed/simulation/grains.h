@@ -1,0 +1,25 @@
+// The grains of a scene: a library of shapes, sized, drawn to the gradation by mass.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/trackbed/scene.h"
+#include "dem/grading/curve.h"
+#include "dem/grading/draw.h"
+#include "dem/grain/polyhedron.h"
+
+namespace trackbed::apps {
+
+/// Makes and sizes the library; `progress` gets the share done.
+std::vector<dem::GrainShape> make_grain_library(const Scene&,
+                                                const std::function<void(double)>& progress);
+
+/// The scene's gradation curve.
+dem::SieveCurve gradation_curve(const Scene&);
+
+/// Grains of the curve with the given total mass [kg]; `stream` makes independent draws.
+std::vector<dem::GrainShape> draw_grains(const Scene&, const std::vector<dem::GrainShape>& library,
+                                         double mass, int stream);
+
+}  // namespace trackbed::apps

@@ -1,0 +1,42 @@
+#include "apps/trackbed/simulation/layout.h"
+
+#include <algorithm>
+
+namespace trackbed::apps {
+
+double half_width(const Scene& s, double base, double z) {
+  const double box = 0.5 * s.container.length;
+  if (s.container.shoulder_width == 0) return box;
+  const double top = 0.5 * s.sleeper.length + s.container.shoulder_width;
+  const double height = base + s.container.fill_height;
+  return std::min(box, top + s.container.shoulder_slope * std::max(0.0, height - z));
+}
+
+Layout make_layout(const Scene& s) {
+  const ContainerScene& c = s.container;
+  Layout l;
+  l.low = {c.half ? 0 : -0.5 * c.length, -0.5 * c.width, 0};
+  l.high = {0.5 * c.length, 0.5 * c.width, 0};
+  l.period = {0, c.periodic ? c.width : 0, 0};
+  l.share = c.half ? 0.5 : 1;
+  l.sleeper_low_x = c.half ? 0 : -0.5 * s.sleeper.length;
+  l.sleeper_high_x = 0.5 * s.sleeper.length;
+  l.sleeper_low_y = -0.5 * s.sleeper.width;
+  l.sleeper_high_y = 0.5 * s.sleeper.width;
+
+  // Areas of the cross-section by slices: below the sleeper's base, and beside the sleeper.
+  const int slices = 1000;
+  double below = 0, beside = 0;
+  for (int k = 0; k < slices; ++k) {
+    const double z = (k + 0.5) / slices;
+    below += 2 * half_width(s, c.depth, z * c.depth) * c.depth / slices;
+    beside += 2 * half_width(s, c.depth, c.depth + z * c.fill_height) * c.fill_height / slices;
+  }
+  const double sleeper = s.sleeper.length * s.sleeper.width *
+                         std::min(c.fill_height, s.sleeper.height);
+  l.bed_mass = s.packing.bulk_density * below * c.width * l.share;
+  l.fill_mass = s.packing.bulk_density * std::max(0.0, beside * c.width - sleeper) * l.share;
+  return l;
+}
+
+}  // namespace trackbed::apps

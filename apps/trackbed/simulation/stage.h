@@ -1,0 +1,84 @@
+// A run is a row of stages; each says which bodies and loads it has, how hard its contacts are,
+// and when it is over. Stages are plain data, made from the scene; run_stages() runs them.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/trackbed/scene.h"
+#include "apps/trackbed/simulation/layout.h"
+#include "coupling/world.h"
+
+namespace trackbed::apps {
+
+/// What stands in the world besides grains. Bodies follow in this order: grains, walls, floor,
+/// then the one body that is moved: plate or rigid sleeper.
+struct Actors {
+  int walls = 0;  ///< fixed boxes; the last one is the floor while `floor` is set
+  bool floor = false, plate = false, rigid_sleeper = false;
+  int sleeper_surface = -1, subgrade_surface = -1;  ///< into World::surfaces, -1 = rigid
+  double sleeper_base = 0;  ///< height of the sleeper's base when it was put in [m]
+  double sleeper_start = 0;  ///< height of the rigid sleeper's centre then [m]
+};
+
+/// Where the run stands; part of every checkpoint.
+struct StageState {
+  int index = 0;        ///< of the stage under way
+  int steps = 0;        ///< done in this stage
+  int cycles = 0;       ///< whole load cycles done in this stage
+  int halvings = 0;     ///< of the time step in this stage
+  int steps_per_cycle = 0;
+  double dt = 0;        ///< [s]
+  double start = 0;     ///< time at its start [s]
+  double load = 0;      ///< on plate or sleeper now [N]
+  double u0 = 0;        ///< sleeper displacement that counts as zero [m]
+  double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
+  double largest_overlap = 0;     ///< depth over grain size, so far in the run
+  double largest_step_share = 0;  ///< time step over the measured limit, so far in the run
+  double worst_closure = 0;       ///< |ledger closure| over work turned over, of the loading
+  std::vector<double> grain_force;  ///< largest contact force per grain [N]
+};
+
+struct Run {
+  Scene scene;
+  Layout layout;
+  int threads = 1;
+  coupling::World world;
+  Actors actors;
+  StageState stage;
+};
+
+struct Stage {
+  std::string name;
+  double modulus = 0;   ///< contact modulus [Pa]
+  double damping = 0;   ///< local damping
+  double margin = 0.2;  ///< share of the stability limit
+  double friction = 0;  ///< grain on grain
+  double longest = 0;   ///< [s]
+  double period = 0;    ///< of the load [s]; 0 = no cycles
+  bool until_quiet = false;
+  bool ledger = false;  ///< opens the energy ledger at its start
+  std::function<void(Run&)> enter;               ///< changes bodies and surfaces
+  std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
+  std::function<bool(Run&)> after_cycle;           ///< true: the stage is over
+};
+
+/// Deposit, tamping, plate off, sleeper and ballast beside it, hardening to the loading modulus.
+std::vector<Stage> packing_stages(const Scene&);
+
+/// Seating under the least load, then the load cycles.
+std::vector<Stage> loading_stages(const Scene&);
+
+/// What one step of the stage needs.
+dem::StepContext step_context(const Run&, const Stage&);
+
+/// Sleeper's displacement, positive downwards, against where it was put in [m].
+double sleeper_displacement(const Run&);
+
+/// Height of the bed between the subgrade and the plate [m].
+double bed_height(const Run&);
+
+/// Mass of grains per volume between subgrade and plate [kg/m3].
+double bed_density(const Run&);
+
+}  // namespace trackbed::apps
