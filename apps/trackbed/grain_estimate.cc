@@ -44,16 +44,33 @@ double bed_volume(const ContainerScene& box) {
   return box.length * box.width * box.depth * (box.half ? 0.5 : 1.0);
 }
 
-double bed_mass(const Scene& scene) {
-  return scene.packing.bulk_density * bed_volume(scene.container);
+namespace {
+
+/// Ballast between the base and the level of the sleeper's base; shoulders slope off to both sides
+/// of the shoulder's top at sleeper.length/2 + shoulder width, fill height above that level [m3].
+double bed_ballast(const Scene& scene) {
+  const auto& box = scene.container;
+  if (box.shoulder_width <= 0) return bed_volume(box);
+  const double top = scene.sleeper.length + 2 * box.shoulder_width;  // width of the crown
+  const double level = top + 2 * box.shoulder_slope * box.fill_height;
+  const double base = level + 2 * box.shoulder_slope * box.depth;
+  return 0.5 * (level + base) * box.depth * box.width * (box.half ? 0.5 : 1.0);
 }
 
-double fill_mass(const Scene& scene) {
+double fill_ballast(const Scene& scene) {
   const auto& box = scene.container;
   const auto& s = scene.sleeper;
-  const double beside = box.length * box.width - s.length * s.width;
-  return scene.packing.bulk_density * std::max(0.0, beside) * box.fill_height *
-         (box.half ? 0.5 : 1.0);
+  double across = box.length;  // mean width of the layer beside the sleeper
+  if (box.shoulder_width > 0)
+    across = s.length + 2 * box.shoulder_width + box.shoulder_slope * box.fill_height;
+  const double layer = across * box.width - s.length * s.width;
+  return std::max(0.0, layer) * std::min(box.fill_height, s.height) * (box.half ? 0.5 : 1.0);
 }
+
+}  // namespace
+
+double bed_mass(const Scene& scene) { return scene.packing.bulk_density * bed_ballast(scene); }
+
+double fill_mass(const Scene& scene) { return scene.packing.bulk_density * fill_ballast(scene); }
 
 }  // namespace trackbed::apps

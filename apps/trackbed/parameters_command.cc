@@ -39,8 +39,8 @@ int parameters_command(const ParametersOptions& options) {
   if (options.format == "markdown")
     text = markdown(table);
   else if (options.format == "prm" || options.format == "json")
-    text = print_defaults(table, options.format == "json" ? ParameterFormat::json
-                                                          : ParameterFormat::prm);
+    text = print_defaults(table,
+                          options.format == "json" ? ParameterFormat::json : ParameterFormat::prm);
   else
     throw InputError("--format '" + options.format + "': allowed: prm, json or markdown");
   std::fwrite(text.data(), 1, text.size(), stdout);

@@ -33,8 +33,9 @@ int report_command(const ReportOptions& options) {
   char* list[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), nullptr};
   pid_t child = 0;
   if (::posix_spawn(&child, python, nullptr, nullptr, list, environ) != 0)
-    throw RunError(std::string(python) + ": cannot be started; the report needs python3 with "
-                                         "python3-matplotlib and python3-h5py");
+    throw RunError(std::string(python) +
+                   ": cannot be started; the report needs python3 with "
+                   "python3-matplotlib and python3-h5py");
   int status = 0;
   ::waitpid(child, &status, 0);
   if (!WIFEXITED(status)) throw RunError("the report's script was stopped by a signal");

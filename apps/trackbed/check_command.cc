@@ -1,0 +1,66 @@
+// `trackbed check`: the plan of a scene on one page.
+#include <cstdio>
+#include <thread>
+
+#include "apps/trackbed/commands.h"
+#include "apps/trackbed/grain_estimate.h"
+#include "apps/trackbed/plan.h"
+#include "apps/trackbed/progress.h"
+#include "apps/trackbed/read_scene.h"
+
+namespace trackbed::apps {
+namespace {
+
+void print_grains(const Scene& scene, const Plan& plan) {
+  std::printf("Grains      about %.0f in the bed (%.1f kg)", plan.grains, bed_mass(scene));
+  if (plan.fill_grains >= 1) std::printf(", %.0f beside the sleeper", plan.fill_grains);
+  std::printf("\n");
+  for (const auto& k : gradation_classes(scene))
+    std::printf("            %5.1f to %5.1f mm  %5.1f %%  %7.2f kg  %6.0f grains\n", 1e3 * k.lower,
+                1e3 * k.upper, 100 * k.share, k.mass, k.grains);
+}
+
+void print_effects(const Plan& plan) {
+  std::printf("\nOn\n");
+  for (const auto& e : plan.effects)
+    if (e.on) std::printf("  %-28s %s\n", e.name.c_str(), e.cost.c_str());
+  std::printf("Off (computed nowhere)         would be switched on by\n");
+  for (const auto& e : plan.effects)
+    if (!e.on) std::printf("  %-28s %s\n", e.name.c_str(), e.cost.c_str());
+}
+
+void print_stages(const Plan& plan) {
+  std::printf("\nStage               at most [s]  time step [s]       steps\n");
+  for (const auto& s : plan.stages)
+    std::printf("%-18s %12.4g %14.2e %11.0f\n", s.name.c_str(), s.duration, s.time_step, s.steps);
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options) {
+  const Scene scene = read_scene(options.scene, options.set);
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  const int threads = options.threads > 0 ? options.threads : cores > 0 ? cores : 1;
+  const Plan plan = make_plan(scene, threads);
+
+  std::printf("%s: %s\n\n", scene.file.c_str(), scene.title.c_str());
+  std::printf("Container   %g x %g m, %g m deep%s%s\n", scene.container.length,
+              scene.container.width, scene.container.depth,
+              scene.container.periodic ? ", periodic along the track" : "",
+              scene.container.half ? ", half by symmetry" : "");
+  std::printf("Sleeper     %s, %g x %g x %g m\n", scene.sleeper.model.c_str(), scene.sleeper.length,
+              scene.sleeper.width, scene.sleeper.height);
+  std::printf("Subgrade    %s\n", scene.subgrade.model.c_str());
+  std::printf("Load        %g to %g kN at %g Hz, %d cycles\n", 1e-3 * scene.loading.least,
+              1e-3 * scene.loading.largest, scene.loading.frequency, scene.loading.cycles);
+  print_grains(scene, plan);
+  print_effects(plan);
+  print_stages(plan);
+  std::printf("\nEstimates, from the scene alone: memory %.0f MB, computing %s with %d thread%s.\n",
+              1e-6 * plan.memory, duration_text(plan.seconds).c_str(), threads,
+              threads == 1 ? "" : "s");
+  std::printf("The scene is valid; nothing was run.\n");
+  return 0;
+}
+
+}  // namespace trackbed::apps
