@@ -173,12 +173,12 @@ bool closed_surface(const Polyhedron& body) {
 
 }  // namespace
 
-Polyhedron convex_hull(const std::vector<Vec3>& points) {
+Polyhedron convex_hull(const std::vector<Vec3>& points, double share) {
   if (points.size() < 4) throw InputError("convex hull: fewer than 4 points");
   for (const Vec3& p : points)
     if (!p.allFinite()) throw InputError("convex hull: a coordinate is not a finite number");
   const double size = extent(points);
-  double tolerance = 1e-9 * size;
+  double tolerance = share * size;
   const std::vector<Vec3> distinct = without_duplicates(points, tolerance);
   if (distinct.size() < 4) throw InputError("convex hull: fewer than 4 distinct points");
   const TriangleHull hull = triangle_hull(distinct);

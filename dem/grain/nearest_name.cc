@@ -30,6 +30,9 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_name(const std::string& given, const std::vector<std::string>& names) {
   if (names.empty()) return "";
+  if (given.size() >= 3)
+    for (const std::string& name : names)
+      if (name.find(given) != std::string::npos) return name;
   return *std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return edit_distance(given, a) < edit_distance(given, b);
   });

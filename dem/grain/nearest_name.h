@@ -5,7 +5,8 @@
 
 namespace trackbed::dem {
 
-/// By edit distance (insert, delete, replace), letter case ignored; "" when `names` is empty.
+/// A name that contains the given text, else by edit distance (insert, delete, replace; letter case
+/// ignored); "" when `names` is empty.
 std::string nearest_name(const std::string& given, const std::vector<std::string>& names);
 
 /// "no NOUN 'given'; did you mean 'x'? (known: a, b, …)"

@@ -137,4 +137,17 @@ GrainShape make_grain_shape(const Polyhedron& given) {
   return shape;
 }
 
+GrainShape scaled(const GrainShape& shape, double factor) {
+  if (!(factor > 0) || !std::isfinite(factor))
+    throw InputError("grain: a scale must be positive and finite");
+  GrainShape result = shape;
+  for (Vec3& v : result.body.vertices) v *= factor;
+  result.volume *= factor * factor * factor;
+  result.inertia *= factor * factor * factor * factor * factor;
+  result.radius *= factor;
+  result.sieve_size *= factor;
+  result.origin *= factor;
+  return result;
+}
+
 }  // namespace trackbed::dem

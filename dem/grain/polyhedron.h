@@ -27,10 +27,10 @@ MassProperties mass_properties(const Polyhedron&);
 /// Box with the given full edge lengths [m], centred at the origin.
 Polyhedron make_box(const Vec3& edges);
 
-/// Convex hull of points [m] (CGAL). Points closer than 1e-9 of the size are one; facets coplanar
-/// within that tolerance become one face, and vertices inside a face or an edge are dropped.
-/// Throws InputError when the points are coplanar or not finite.
-Polyhedron convex_hull(const std::vector<Vec3>& points);
+/// Convex hull of points [m] (CGAL). `tolerance` is a share of the points' extent: points nearer to
+/// each other than that are one, facets coplanar within it become one face, and vertices inside a
+/// face or an edge are dropped. Throws InputError when the points are coplanar or not finite.
+Polyhedron convex_hull(const std::vector<Vec3>& points, double tolerance = 1e-9);
 
 /// The shape moved so that its centroid is the origin and its principal axes of inertia are the
 /// coordinate axes (right-handed, moments ascending); `inertia` holds the principal moments at
@@ -46,5 +46,9 @@ struct GrainShape {
   Quat turn = Quat::Identity();
 };
 GrainShape make_grain_shape(const Polyhedron&);
+
+/// The shape times `factor` > 0: lengths, sieve size, origin; volume factor^3, inertia factor^5.
+/// Throws InputError when the factor is not positive and finite.
+GrainShape scaled(const GrainShape&, double factor);
 
 }  // namespace trackbed::dem

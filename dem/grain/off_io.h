@@ -1,0 +1,25 @@
+// Solids from files: OFF, Wavefront OBJ, STL (ASCII and binary), one closed solid a file.
+#pragma once
+#include <string>
+
+#include "dem/grain/polyhedron.h"
+
+namespace trackbed::dem {
+
+struct SolidOptions {
+  double unit = 1;    ///< length of the file's unit [m]; 0.001 for millimetres
+  bool hull = false;  ///< true: a solid that is not convex is replaced by its convex hull
+};
+
+/// The solid in a file, by its extension (.off, .obj, .stl), as a convex polyhedron in metres with
+/// coplanar facets merged (within 1e-9 of its size; 3e-7 for STL, whose numbers are single
+/// precision). Throws InputError in one line naming file and problem: unreadable or of unknown
+/// kind, malformed line, NaN, index out of range, open or non-manifold surface, faces wound against
+/// each other, inside-out, no volume, self-intersecting, several solids, not convex (unless
+/// `hull`).
+Polyhedron read_solid(const std::string& path, const SolidOptions& = {});
+
+/// Writes OFF with all digits. Throws InputError when the file cannot be written.
+void write_off(const std::string& path, const Polyhedron&);
+
+}  // namespace trackbed::dem

@@ -1,0 +1,90 @@
+#include "dem/grain/shape_indices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/error.h"
+#include "dem/grading/shadow.h"
+
+namespace trackbed::dem {
+namespace {
+
+double width_along(const Polyhedron& body, const Vec3& d) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& v : body.vertices)
+    low = std::min(low, v.dot(d)), high = std::max(high, v.dot(d));
+  return high - low;
+}
+
+}  // namespace
+
+ShapeIndices shape_indices(const Polyhedron& body) {
+  ShapeIndices s;
+  const double volume = mass_properties(body).volume;
+  const std::vector<Vec3> areas = face_areas(body);
+
+  double least_volume = std::numeric_limits<double>::infinity();
+  s.width = least_volume;
+  for (const Vec3& area : areas) {
+    s.surface += area.norm();
+    if (area.norm() == 0) continue;
+    const Vec3 n = area.normalized();
+    const double height = width_along(body, n);
+    s.width = std::min(s.width, height);
+    const Rectangle r = least_rectangle(shadow(body, n));
+    if (height * r.p * r.q >= least_volume) continue;
+    least_volume = height * r.p * r.q;
+    double edges[3] = {height, r.p, r.q};
+    std::sort(edges, edges + 3);
+    s.length = edges[2], s.intermediate = edges[1], s.shortest = edges[0];
+  }
+  s.elongation = s.intermediate / s.length;
+  s.flatness = s.shortest / s.intermediate;
+
+  std::map<std::pair<int, int>, int> owner;
+  for (int f = 0; f < int(body.faces.size()); ++f) {
+    const auto& face = body.faces[f];
+    for (size_t k = 0; k < face.size(); ++k) owner[{face[k], face[(k + 1) % face.size()]}] = f;
+  }
+  std::vector<Vec3> edges;
+  double turning = 0, lengths = 0;
+  for (const auto& [edge, f] : owner) {
+    if (edge.first > edge.second) continue;
+    const Vec3 e = body.vertices[edge.second] - body.vertices[edge.first];
+    const Vec3 &a = areas[f], &b = areas[owner.at({edge.second, edge.first})];
+    turning += e.norm() * std::atan2(a.cross(b).norm(), a.dot(b));
+    lengths += e.norm();
+    edges.push_back(e.normalized());
+  }
+  s.angularity = turning / lengths / std::acos(0.0);
+  // The least width lies along a face normal or along the normal of two edges.
+  for (size_t i = 0; i < edges.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      const Vec3 d = edges[i].cross(edges[j]);
+      if (d.norm() > 1e-9) s.width = std::min(s.width, width_along(body, d.normalized()));
+    }
+  for (const Vec3& p : body.vertices)
+    for (const Vec3& q : body.vertices) s.diameter = std::max(s.diameter, (p - q).norm());
+  s.sphericity = std::cbrt(36 * M_PI * volume * volume) / s.surface;
+  return s;
+}
+
+LibraryIndices library_indices(const std::vector<GrainShape>& shapes) {
+  LibraryIndices r;
+  double total = 0;
+  for (const GrainShape& shape : shapes) {
+    if (!(shape.sieve_size > 0)) throw InputError("shape indices: a grain is not sized");
+    const ShapeIndices s = shape_indices(shape.body);
+    total += shape.volume;
+    if (s.width < 0.6 * shape.sieve_size) r.flaky += shape.volume;
+    if (s.diameter > 1.8 * shape.sieve_size) r.elongated += shape.volume;
+    if (s.diameter > 3 * s.width) r.slender += shape.volume;
+  }
+  if (!(total > 0)) throw InputError("shape indices: no grains");
+  r.flaky *= 100 / total, r.elongated *= 100 / total, r.slender *= 100 / total;
+  return r;
+}
+
+}  // namespace trackbed::dem
