@@ -28,7 +28,7 @@ struct Material {
   double density = kMustBeSet;    ///< ρ [kg/m3] > 0
   double rayleigh_mass = 0;       ///< α_M [1/s] ≥ 0
   double rayleigh_stiffness = 0;  ///< α_K [s] ≥ 0
-  std::shared_ptr<const MaterialModel> model;
+  std::shared_ptr<const MaterialModel> model = {};
 };
 
 /// A horizontal layer of a box mesh.
@@ -48,6 +48,8 @@ struct MeshParameters {
   Vec corner{0, 0, 0};  ///< lower corner of the box [m]; for a file: shift of its nodes
   Vec lengths{kMustBeSet, kMustBeSet, kMustBeSet};  ///< [m]
   std::array<int, 3> elements{1, 1, 1};
+  std::array<std::vector<double>, 3> widths;  ///< cell widths along an axis [m]; if given, instead
+                                              ///< of length and elements (graded meshes)
   std::vector<Layer> layers;
   std::string file;
   std::map<std::string, int> region_material;  ///< physical volume -> index into materials

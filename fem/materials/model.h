@@ -27,6 +27,9 @@ class MaterialModel {
   virtual void evaluate(const MaterialInputs& in, MaterialOutputs& out) const = 0;
 };
 
+/// \throws InputError unless E > 0, -1 < ν < ½, ρ > 0; `name` is in the text.
+void check_elastic(const char* name, double young, double poisson, double density);
+
 /// E, ν, ρ everywhere the same. \throws InputError unless E > 0, -1 < ν < ½, ρ > 0; `name` is in
 /// the text.
 std::shared_ptr<const MaterialModel> uniform_elastic(const char* name, double young, double poisson,

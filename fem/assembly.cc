@@ -1,0 +1,113 @@
+#include "fem/assembly.h"
+
+#include "base/error.h"
+#include "fem/element.h"
+#include "fem/supports.h"
+#include "fem/text.h"
+
+namespace trackbed::fem {
+namespace {
+
+std::vector<int> unknowns_of(const Unknowns& unknowns, const int* nodes, int count) {
+  std::vector<int> all;
+  for (int i = 0; i < count; ++i)
+    for (int unknown : unknowns.of_node[nodes[i]]) all.push_back(unknown);
+  return all;
+}
+
+bool damps(const ElasticBodyParameters& p) {
+  bool any = false;
+  for (const Material& m : p.materials) any |= m.rayleigh_mass > 0 || m.rayleigh_stiffness > 0;
+  for (const Bed& b : p.beds) any |= b.normal_dashpot > 0 || b.shear_dashpot > 0;
+  return any;
+}
+
+void add_bed(const ElasticBodyParameters& p, const Bed& bed, const Discretisation& body,
+             const Unknowns& unknowns, Matrices& matrices) {
+  const int id = find_boundary(body, p.name, "bed", bed.boundary);
+  for (double value :
+       {bed.normal_stiffness, bed.shear_stiffness, bed.normal_dashpot, bed.shear_dashpot})
+    if (!(value >= 0))
+      throw InputError(
+          text(p.name, ": bed on '", bed.boundary, "': ", value, ", must be 0 or more"));
+  const auto& pattern = matrices.pattern;
+  for (const Face& face : body.faces) {
+    if (face.boundary != id) continue;
+    const auto ids = unknowns_of(unknowns, face.nodes.data(), face.count);
+    for (const FacePoint& point : face_points(body, face))
+      for (std::size_t a = 0; a < ids.size(); ++a)
+        for (std::size_t b = 0; b < ids.size(); ++b) {
+          if (ids[a] < 0 || ids[b] < 0) continue;
+          const double normal = point.normal[a % 3] * point.normal[b % 3];
+          const double shear = (a % 3 == b % 3) - normal;
+          const double w = point.shape[a / 3] * point.shape[b / 3] * point.area;
+          const int place = pattern.place(ids[a], ids[b]);
+          matrices.stiffness[place] +=
+              w * (bed.normal_stiffness * normal + bed.shear_stiffness * shear);
+          if (!matrices.damping.empty())
+            matrices.damping[place] +=
+                w * (bed.normal_dashpot * normal + bed.shear_dashpot * shear);
+        }
+  }
+}
+
+}  // namespace
+
+Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discretisation& body,
+                   const Unknowns& unknowns) {
+  const int n = body.nodes_per_cell, cells = static_cast<int>(body.cell_nodes.size()) / n;
+  std::vector<std::vector<int>> groups(cells);
+  for (int c = 0; c < cells; ++c) groups[c] = unknowns_of(unknowns, &body.cell_nodes[c * n], n);
+
+  Assembled out;
+  Matrices& m = out.matrices;
+  m.pattern = make_pattern(unknowns.count, groups);
+  m.stiffness.assign(m.pattern.column.size(), 0.);
+  m.mass = m.stiffness;
+  if (damps(p)) m.damping = m.stiffness;
+  out.node_mass.assign(body.nodes(), 0.);
+
+  ElementIntegrals element(p, grid);
+  int c = 0;
+  for (const auto& cell : grid.nodes.active_cell_iterators()) {
+    element.compute(cell);
+    const Material& material = p.materials[cell->material_id()];
+    const std::vector<int>& ids = groups[c];
+    for (int a = 0; a < 3 * n; ++a) {
+      if (ids[a] < 0) continue;
+      for (int b = 0; b < 3 * n; ++b) {
+        if (ids[b] < 0) continue;
+        const int place = m.pattern.place(ids[a], ids[b]);
+        const double mass = a % 3 == b % 3 ? element.mass(a / 3, b / 3) : 0.;
+        m.stiffness[place] += element.stiffness(a, b);
+        m.mass[place] += mass;
+        if (!m.damping.empty())
+          m.damping[place] +=
+              material.rayleigh_mass * mass + material.rayleigh_stiffness * element.stiffness(a, b);
+      }
+    }
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b) out.node_mass[body.cell_nodes[c * n + a]] += element.mass(a, b);
+    ++c;
+  }
+  for (const Bed& bed : p.beds) add_bed(p, bed, body, unknowns, m);
+  return out;
+}
+
+std::vector<std::array<double, 6>> cell_stress(const ElasticBodyParameters& p, const Grid& grid,
+                                               const Discretisation& body,
+                                               const std::vector<Vec>& displacement) {
+  std::vector<std::array<double, 6>> stress;
+  ElementIntegrals element(p, grid);
+  const int n = body.nodes_per_cell;
+  std::vector<Vec> local(n);
+  int c = 0;
+  for (const auto& cell : grid.nodes.active_cell_iterators()) {
+    for (int a = 0; a < n; ++a) local[a] = displacement[body.cell_nodes[c * n + a]];
+    stress.push_back(element.centre_stress(cell, local));
+    ++c;
+  }
+  return stress;
+}
+
+}  // namespace trackbed::fem

@@ -1,0 +1,375 @@
+#include "fem/elastic_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "fem/assembly.h"
+#include "fem/frequencies.h"
+#include "fem/grid.h"
+#include "fem/load_patch.h"
+#include "fem/output.h"
+#include "fem/supports.h"
+#include "fem/surface.h"
+#include "fem/text.h"
+
+namespace trackbed::fem {
+namespace {
+
+struct Totals {
+  double work_loads = 0, work_surface = 0, damping = 0, at_start = 0;
+};
+
+double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+const ElasticBodyParameters& checked(const ElasticBodyParameters& p) {
+  if (p.order != 1 && p.order != 2)
+    throw InputError(text(p.name, ": element order ", p.order, ", allowed are 1 and 2"));
+  if (p.materials.empty()) throw InputError(p.name + ": no material given");
+  return p;
+}
+
+}  // namespace
+
+struct ElasticBody::Parts {
+  ElasticBodyParameters p;
+  Grid grid;
+  Discretisation body;
+  Unknowns unknowns;
+  Assembled assembled;
+  ContactSurface surface;
+  std::vector<LoadPatch> patches;
+  Stepper stepper;
+
+  Motion motion;
+  std::vector<double> load, load_before;  // resultants [N]: from the next step on, and at t
+  std::vector<Vec> surface_before;        // contact forces at t
+  Totals totals;
+  // Work space of a step.
+  std::vector<double> force, u_before, product;
+  std::vector<Vec> moved;
+
+  static Discretisation make(const ElasticBodyParameters& p, Grid& grid) {
+    make_cells(p, grid);
+    return discretise(grid);
+  }
+
+  explicit Parts(ElasticBodyParameters given)
+      : p(std::move(given)),
+        grid(checked(p).order),
+        body(make(p, grid)),
+        unknowns(number_unknowns(body, p.name, p.supports)),
+        assembled(assemble(p, grid, body, unknowns)),
+        surface(contact_surface(body, unknowns, p.name, p.contact)),
+        stepper(assembled.matrices, p.newmark ? newmark() : generalised_alpha(p.rho_inf)) {
+    for (const Load& l : p.loads) patches.push_back(load_patch(body, p.name, l));
+    for (auto* field : {&motion.u, &motion.v, &motion.a, &motion.f, &force, &u_before})
+      field->assign(unknowns.count, 0.);
+    load.assign(patches.size(), 0.);
+    load_before = load;
+    surface_before.assign(surface.node.size(), Vec{});
+    moved = surface_before;
+  }
+
+  const Matrices& matrices() const { return assembled.matrices; }
+
+  Vec at(const std::vector<double>& field, int node) const {
+    Vec value{};
+    for (int d = 0; d < 3; ++d)
+      if (const int i = unknowns.of_node[node][d]; i >= 0) value[d] = field[i];
+    return value;
+  }
+  std::vector<Vec> everywhere(const std::vector<double>& field) const {
+    std::vector<Vec> values(body.nodes());
+    for (int i = 0; i < body.nodes(); ++i) values[i] = at(field, i);
+    return values;
+  }
+  void add(int node, const Vec& f, double factor, std::vector<double>& to) const {
+    for (int d = 0; d < 3; ++d)
+      if (const int i = unknowns.of_node[node][d]; i >= 0) to[i] += factor * f[d];
+  }
+
+  // Gravity and loads; the contact forces come on top.
+  void outer_force(std::vector<double>& f) const {
+    std::fill(f.begin(), f.end(), 0.);
+    if (inner(p.gravity, p.gravity) > 0)
+      for (int i = 0; i < body.nodes(); ++i) add(i, p.gravity, assembled.node_mass[i], f);
+    for (std::size_t l = 0; l < patches.size(); ++l)
+      if (load[l] != 0)
+        for (const auto& [node, weight] : patches[l].weights)
+          add(node, patches[l].direction, weight * load[l], f);
+  }
+  void add_surface(const std::vector<Vec>& forces, std::vector<double>& f) const {
+    for (std::size_t i = 0; i < forces.size(); ++i) add(surface.node[i], forces[i], 1., f);
+  }
+  void check(const std::vector<Vec>& forces) const {
+    if (forces.size() != surface.node.size())
+      throw RunError(
+          text(p.name, ": ", forces.size(), " surface forces for ", surface.node.size(), " nodes"));
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      if (!std::isfinite(inner(forces[i], forces[i])))
+        throw RunError(text(p.name, ": the contact force on surface node ", i,
+                            " is not finite; the time step is probably too large"));
+  }
+
+  Vec patch_mean(int l, const std::vector<double>& field) const {
+    Vec mean{};
+    for (const auto& [node, weight] : patches[l].weights) {
+      const Vec value = at(field, node);
+      for (int d = 0; d < 3; ++d) mean[d] += weight * value[d];
+    }
+    return mean;
+  }
+
+  double gravity_potential() const {
+    if (!(inner(p.gravity, p.gravity) > 0)) return 0;
+    double energy = 0;
+    for (int i = 0; i < body.nodes(); ++i)
+      energy -= assembled.node_mass[i] * inner(p.gravity, at(motion.u, i));
+    return energy;
+  }
+  double kinetic() const { return product_of(matrices().mass, motion.v) / 2; }
+  double strain() const { return product_of(matrices().stiffness, motion.u) / 2; }
+  double product_of(const std::vector<double>& A, const std::vector<double>& x) const {
+    return fem::product(matrices().pattern, A, x, x);
+  }
+  void start_ledger() { totals = {0, 0, 0, kinetic() + strain() + gravity_potential()}; }
+};
+
+ElasticBody::ElasticBody(ElasticBodyParameters p) : parts_(new Parts(std::move(p))) {
+  Parts& s = *parts_;
+  if (!(inner(s.p.gravity, s.p.gravity) > 0)) return;
+  if (s.p.start_in_equilibrium && free_motion(s.body, s.unknowns, s.p.beds).empty()) {
+    solve_static();
+  } else {
+    s.outer_force(s.motion.f);
+    s.stepper.set_acceleration(s.motion);
+    s.start_ledger();
+  }
+}
+
+ElasticBody::~ElasticBody() = default;
+
+const SurfaceMesh& ElasticBody::surface() const { return parts_->surface.mesh; }
+const ElasticBodyParameters& ElasticBody::parameters() const { return parts_->p; }
+void ElasticBody::set_step(double dt) { parts_->stepper.set_step(dt); }
+
+void ElasticBody::predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const {
+  const Parts& s = *parts_;
+  const double dt = s.stepper.step();
+  const std::size_t n = s.surface.node.size();
+  displacement.resize(n);
+  velocity.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& ids = s.unknowns.of_node[s.surface.node[i]];
+    for (int d = 0; d < 3; ++d) {
+      const int k = ids[d];
+      displacement[i][d] =
+          k < 0 ? 0. : s.motion.u[k] + dt * (s.motion.v[k] + 0.5 * dt * s.motion.a[k]);
+      velocity[i][d] = k < 0 ? 0. : s.motion.v[k] + dt * s.motion.a[k];
+    }
+  }
+}
+
+void ElasticBody::motion(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const {
+  const Parts& s = *parts_;
+  displacement.resize(s.surface.node.size());
+  velocity.resize(s.surface.node.size());
+  for (std::size_t i = 0; i < s.surface.node.size(); ++i) {
+    displacement[i] = s.at(s.motion.u, s.surface.node[i]);
+    velocity[i] = s.at(s.motion.v, s.surface.node[i]);
+  }
+}
+
+void ElasticBody::advance(const std::vector<Vec>& forces) {
+  Parts& s = *parts_;
+  s.check(forces);
+  s.outer_force(s.force);
+  s.add_surface(forces, s.force);
+  s.u_before = s.motion.u;
+  const bool damped = !s.matrices().damping.empty();
+  if (damped) multiply(s.matrices().pattern, s.matrices().damping, s.motion.v, s.product);
+  s.stepper.advance(s.motion, s.force);
+
+  for (std::size_t i = 0; i < s.u_before.size(); ++i) s.u_before[i] = s.motion.u[i] - s.u_before[i];
+  const std::vector<double>& moved = s.u_before;  // u₊ − u
+  double work = 0;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const Vec du = s.at(moved, s.surface.node[i]);
+    for (int d = 0; d < 3; ++d) work += (s.surface_before[i][d] + forces[i][d]) * du[d];
+    s.surface_before[i] = forces[i];
+  }
+  s.totals.work_surface += work / 2;
+  for (std::size_t l = 0; l < s.patches.size(); ++l) {
+    const double sum = s.load_before[l] + s.load[l];
+    if (sum != 0)
+      s.totals.work_loads += sum / 2 * inner(s.patches[l].direction, s.patch_mean(l, moved));
+    s.load_before[l] = s.load[l];
+  }
+  if (damped) {
+    double before = dot(moved, s.product);
+    multiply(s.matrices().pattern, s.matrices().damping, s.motion.v, s.product);
+    s.totals.damping += (before + dot(moved, s.product)) / 2;
+  }
+}
+
+int ElasticBody::loads() const { return static_cast<int>(parts_->patches.size()); }
+void ElasticBody::set_load(int load, double newton) {
+  if (!std::isfinite(newton))
+    throw RunError(
+        text(parts_->p.name, ": load '", parts_->p.loads.at(load).name, "' is not finite"));
+  parts_->load.at(load) = newton;
+}
+Vec ElasticBody::load_displacement(int load) const {
+  return parts_->patch_mean(load, parts_->motion.u);
+}
+
+double ElasticBody::mass() const {
+  double sum = 0;
+  for (double m : parts_->assembled.node_mass) sum += m;
+  return sum;
+}
+
+double ElasticBody::least_surface_mass() const {
+  const Parts& s = *parts_;
+  std::vector<double> mass(s.body.nodes(), 0.);  // images share a node
+  for (int i = 0; i < s.body.nodes(); ++i) mass[s.unknowns.same_as[i]] += s.assembled.node_mass[i];
+  double least = std::numeric_limits<double>::infinity();
+  for (int node : s.surface.node) {
+    const auto& ids = s.unknowns.of_node[node];
+    if (std::max({ids[0], ids[1], ids[2]}) >= 0)
+      least = std::min(least, mass[s.unknowns.same_as[node]]);
+  }
+  return least;
+}
+
+double ElasticBody::largest_frequency() const { return fem::largest_frequency(parts_->matrices()); }
+int ElasticBody::unknowns() const { return parts_->unknowns.count; }
+
+StructureEnergy ElasticBody::energy() const {
+  const Parts& s = *parts_;
+  StructureEnergy e;
+  e.kinetic = s.kinetic();
+  e.strain = s.strain();
+  e.gravity = s.gravity_potential();
+  e.work_loads = s.totals.work_loads;
+  e.work_surface = s.totals.work_surface;
+  e.dissipated_damping = s.totals.damping;
+  e.at_start = s.totals.at_start;
+  e.numerical = e.work_loads + e.work_surface + e.at_start - e.kinetic - e.strain - e.gravity -
+                e.dissipated_damping;
+  return e;
+}
+
+void ElasticBody::save(std::vector<double>& state) const {
+  const Parts& s = *parts_;
+  state.clear();
+  const auto put = [&](const std::vector<double>& values) {
+    state.insert(state.end(), values.begin(), values.end());
+  };
+  for (const auto* field :
+       {&s.motion.u, &s.motion.v, &s.motion.a, &s.motion.f, &s.load, &s.load_before})
+    put(*field);
+  for (const Vec& f : s.surface_before) state.insert(state.end(), f.begin(), f.end());
+  put({s.totals.work_loads, s.totals.work_surface, s.totals.damping, s.totals.at_start});
+}
+
+void ElasticBody::load(const std::vector<double>& state) {
+  Parts& s = *parts_;
+  const std::size_t expected =
+      4 * s.motion.u.size() + 2 * s.load.size() + 3 * s.surface_before.size() + 4;
+  if (state.size() != expected)
+    throw InputError(text(s.p.name, ": the saved state has ", state.size(),
+                          " numbers, this body needs ", expected, "; it belongs to another mesh"));
+  auto from = state.begin();
+  const auto get = [&](std::vector<double>& values) {
+    std::copy_n(from, values.size(), values.begin());
+    from += static_cast<std::ptrdiff_t>(values.size());
+  };
+  for (auto* field : {&s.motion.u, &s.motion.v, &s.motion.a, &s.motion.f, &s.load, &s.load_before})
+    get(*field);
+  for (Vec& f : s.surface_before)
+    for (double& c : f) c = *from++;
+  s.totals = {from[0], from[1], from[2], from[3]};
+}
+
+void ElasticBody::translate(const Vec& by) {
+  Parts& s = *parts_;
+  shift(s.grid, by);
+  for (auto* places : {&s.body.position, &s.surface.mesh.nodes})
+    for (Vec& x : *places)
+      for (int d = 0; d < 3; ++d) x[d] += by[d];
+}
+
+void ElasticBody::set_velocity(const Vec& velocity) {
+  Parts& s = *parts_;
+  for (const auto& ids : s.unknowns.of_node)
+    for (int d = 0; d < 3; ++d)
+      if (ids[d] >= 0) s.motion.v[ids[d]] = velocity[d];
+  s.outer_force(s.motion.f);
+  s.load_before = s.load;
+  std::fill(s.surface_before.begin(), s.surface_before.end(), Vec{});
+  s.stepper.set_acceleration(s.motion);
+  s.start_ledger();
+}
+
+void ElasticBody::solve_static(const std::vector<Vec>& forces) {
+  Parts& s = *parts_;
+  const std::string free = free_motion(s.body, s.unknowns, s.p.beds);
+  if (!free.empty())
+    throw InputError(text(s.p.name, ": not held: it can still ", free,
+                          ", so a static answer does not exist; add supports or a bed"));
+  s.outer_force(s.motion.f);
+  std::fill(s.surface_before.begin(), s.surface_before.end(), Vec{});
+  if (!forces.empty()) {
+    s.check(forces);
+    s.add_surface(forces, s.motion.f);
+    s.surface_before = forces;
+  }
+  s.load_before = s.load;
+  Factor(s.matrices().pattern, s.matrices().stiffness, s.p.name.c_str())
+      .solve(s.motion.f, s.motion.u);
+  std::fill(s.motion.v.begin(), s.motion.v.end(), 0.);
+  std::fill(s.motion.a.begin(), s.motion.a.end(), 0.);
+  s.start_ledger();
+}
+
+Vec ElasticBody::displacement_at(const Vec& point) const {
+  const Parts& s = *parts_;
+  return field_at(s.p, s.grid, s.everywhere(s.motion.u), point);
+}
+
+Vec ElasticBody::momentum() const {
+  const Parts& s = *parts_;
+  Vec sum{};
+  for (int i = 0; i < s.body.nodes(); ++i) {
+    const Vec v = s.at(s.motion.v, i);
+    for (int d = 0; d < 3; ++d) sum[d] += s.assembled.node_mass[i] * v[d];
+  }
+  return sum;
+}
+
+Vec ElasticBody::reaction() const {
+  const Parts& s = *parts_;
+  Vec sum{};
+  for (int i = 0; i < s.body.nodes(); ++i) {
+    const Vec a = s.at(s.motion.a, i);
+    for (int d = 0; d < 3; ++d) sum[d] += s.assembled.node_mass[i] * (a[d] - s.p.gravity[d]);
+  }
+  for (std::size_t l = 0; l < s.patches.size(); ++l)
+    for (int d = 0; d < 3; ++d) sum[d] -= s.load_before[l] * s.patches[l].direction[d];
+  for (const Vec& f : s.surface_before)
+    for (int d = 0; d < 3; ++d) sum[d] -= f[d];
+  return sum;
+}
+
+std::vector<double> ElasticBody::frequencies(int count) const {
+  return lowest_frequencies(parts_->matrices(), count);
+}
+
+void ElasticBody::write_vtu(const std::string& file) const {
+  const Parts& s = *parts_;
+  write_fields(file, s.p, s.grid, s.body, s.everywhere(s.motion.u), s.everywhere(s.motion.v));
+}
+
+}  // namespace trackbed::fem
