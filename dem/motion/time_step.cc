@@ -1,6 +1,5 @@
 #include "dem/motion/time_step.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -32,6 +31,22 @@ void inverse_root_mass(const Bodies& b, int i, Vec3& move, Mat3& turn) {
   }
 }
 
+/// Of a symmetric, positive semidefinite matrix, from above and at most 2.9 % too large:
+/// (tr A^64)^(1/64), by six squarings.
+double largest_eigenvalue(const Mat6& a) {
+  const double size = a.trace();
+  if (!(size > 0)) return 0;
+  Mat6 power = a / size;
+  double log_scale = 0;  // A^(2^k) = size^(2^k) exp(log_scale) power
+  for (int k = 0; k < 6; ++k) {
+    power = (power * power).eval();
+    const double t = power.trace();
+    power /= t;
+    log_scale = 2 * log_scale + std::log(t);
+  }
+  return size * std::exp(log_scale / 64);
+}
+
 /// Largest eigenvalue of a body's bound [1/s2] and its number of contacts.
 double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
   Mat6 sum = Mat6::Zero();
@@ -60,9 +75,7 @@ double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
   Mat6 root = Mat6::Zero();
   root.topLeftCorner<3, 3>() = move.asDiagonal();
   root.bottomRightCorner<3, 3>() = turn;
-  const Eigen::MatrixXd bound = root * sum * root;
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(bound, Eigen::EigenvaluesOnly)
-      .eigenvalues()[5];
+  return largest_eigenvalue(root * sum * root);
 }
 
 double largest_face(const Polyhedron& body) {

@@ -1,0 +1,11 @@
+# Motion, pairs, friction, statics. `motion_scene.h` is shared by all of them.
+function(motion_test name label)
+  trackbed_test(${name} ${label} trackbed_dem)
+  target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+endfunction()
+
+motion_test(motion_rotation verification)
+motion_test(motion_impact verification)
+motion_test(statics_block hard)
+motion_test(pairs_friction unit)
+motion_test(pairs_candidates unit)
