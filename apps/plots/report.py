@@ -1,0 +1,219 @@
+"""Figures and one self-contained page of a run: report.py DIR [--no-pictures]. Writes DIR/*.png and DIR/report.html."""
+import argparse
+import os
+import sys
+import traceback
+
+sys.dont_write_bytecode = True   # the program's folder may not be ours to write in
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import bed_picture  # noqa: E402
+import figures  # noqa: E402
+import measures  # noqa: E402
+import page  # noqa: E402
+import style  # noqa: E402
+from read_run import Missing, Run  # noqa: E402
+from style import number  # noqa: E402
+
+CURVES = [   # section, [(file, title, function)]
+    ("Settlement", [("settlement", "Settlement per cycle", figures.settlement),
+                    ("loops", "Load–displacement loops", figures.hysteresis),
+                    ("stiffness", "Stiffness per cycle", figures.stiffness)]),
+    ("Under the sleeper", [("pressure", "Contact pressure", figures.pressure),
+                           ("moment", "Bending", figures.moment)]),
+    ("The bed", [("gradation", "Gradation", figures.gradation),
+                 ("compaction", "Density per tamping cycle", figures.compaction),
+                 ("forces", "Force on the grains", figures.forces)]),
+    ("Books and clock", [("energy", "Energy ledger", figures.energy),
+                         ("history", "The run in time", figures.overview),
+                         ("timing", "Where the time went", figures.timing)]),
+]
+
+
+def attempt(make, *arguments):
+    """The result, or the reason why there is none: a figure that fails never takes the page with it."""
+    try:
+        return make(*arguments), None
+    except Missing as why:
+        return None, str(why)
+    except Exception as why:  # noqa: BLE001
+        if os.environ.get("TRACKBED_TRACE"):
+            traceback.print_exc()
+        return None, f"{type(why).__name__}: {why}"
+
+
+def headline(run):
+    cards = []
+
+    def card(name, unit, make, scale=1.0, bad=lambda value: False, digits=3):
+        value, why = attempt(make, run)
+        if value is None:
+            cards.append((f"{name}: {why}", "–", "", False))
+        else:
+            cards.append((name, number(value * scale, digits), unit, bad(value)))
+
+    cycles = run.try_table("cycles.csv")
+    count = int(cycles["cycle"][-1]) if cycles is not None and "cycle" in cycles else 0
+    card(f"settlement after {count} cycles" if count else "settlement", "mm", measures.settlement, 1e3)
+    card("last effective stiffness K_e", "kN/mm", measures.stiffness, 1e-6)
+    card("springs back per cycle, mean", "mm", measures.elastic_displacement, 1e3)
+    card("density after tamping", "kg/m³", measures.density, 1, digits=4)
+
+    def worst(run):
+        import numpy as np
+        return float(np.nanmax(np.abs(measures.closure(run)[1])))
+
+    card(f"energy ledger: largest gap, of what entered (tolerance {number(100 * measures.CLOSURE_TOLERANCE)} %)", "%",
+         worst, 100, lambda value: not value <= measures.CLOSURE_TOLERANCE, 2)
+    overlap = _summary_value(run, "overlap")
+    if overlap is not None:
+        name, value, unit = overlap
+        cards.append((name, number(100 * value, 2) if unit in ("", "1", "-") else number(value),
+                      "%" if unit in ("", "1", "-") else unit, False))
+    wall, _ = attempt(measures.wall_time, run)
+    if wall is not None:
+        value, unit = style.duration(wall).split(" ", 1)
+        cards.append(("wall-clock time", value, unit, False))
+    return page.cards(cards)
+
+
+def _summary_value(run, word):
+    """The first row of summary.csv that names the word and has a number."""
+    table = run.try_table("summary.csv")
+    if table is None or "quantity" not in table or "value" not in table:
+        return None
+    for k, name in enumerate(table["quantity"]):
+        if word in str(name).lower():
+            try:
+                unit = str(table["unit"][k]) if "unit" in table else ""
+                return str(name), float(table["value"][k]), unit
+            except ValueError:
+                continue
+    return None
+
+
+def pictures(run, folder, width=None):
+    """The three renderings; each its own reason when it is not there."""
+    parts, options = [], {} if width is None else {"width": width}
+    bed, why = attempt(bed_picture.Bed, run)
+    backdrop = None
+    made = []
+    if bed is None:
+        figure, also = attempt(bed_picture.circles, run)
+        if figure is not None:
+            path = os.path.join(folder, "bed.png")
+            style.save(figure, path)
+            parts.append(page.figure(path, "Side view of the grains' centres, coloured by force (N); the stones "
+                                           f"themselves are not drawn: {why}.", "portrait"))
+        else:
+            parts.append(page.missing("The bed", why if also is None else also))
+    else:
+        made.append(("bed", "The bed", lambda: bed_picture.stones(run, bed=bed, **options)))
+        made.append(("chains", "Force chains", lambda: bed_picture.chains(run, bed=bed, backdrop=backdrop, **options)))
+    made.append(("structures", "The structures", lambda: bed_picture.structures(run, bed=bed, **options)))
+    for name, title, make in made:
+        picture, why = attempt(make)
+        if picture is None:
+            parts.append(page.missing(title, why))
+            continue
+        if name == "bed":
+            backdrop = picture.image
+        path = os.path.join(folder, f"{name}.png")
+        figure, why = attempt(bed_picture.compose, picture)
+        if figure is None:
+            parts.append(page.missing(title, why))
+            continue
+        style.save(figure, path)
+        wide = picture.image.shape[1] > 1.5 * picture.image.shape[0]
+        kind = "wide" if wide else "narrow" if name == "structures" else ""
+        parts.append(page.figure(path, picture.caption, kind))
+    return page.section("The bed at a load maximum", page.grid(*parts))
+
+
+def effects(run):
+    table, why = attempt(run.table, "summary.csv")
+    if table is None:
+        return page.section("Effects and accuracy", page.missing("The table of effects and knobs", why))
+    rows = []
+    for k in range(table.rows):
+        cells = []
+        for column in ("quantity", "value", "unit", "meaning"):
+            value = table[column][k] if column in table else ""
+            if isinstance(value, str):
+                try:
+                    value = float(value) if column == "value" and value else value
+                except ValueError:
+                    pass
+            if not isinstance(value, str):
+                value = "" if value != value else number(float(value), 4)
+            cells.append("" if column == "unit" and value == "1" else value)
+        rows.append(cells)
+    return page.section("Effects and accuracy",
+                        page.paragraph("What was computed, and what each approximation costs."),
+                        page.table(["quantity", "value", "unit", "meaning"], rows, numeric=(1,)))
+
+
+def caution(run):
+    cycles = run.try_table("cycles.csv")
+    count = f"{int(cycles['cycle'][-1])} load cycles are" if cycles is not None and "cycle" in cycles else \
+        "A few load cycles are"
+    return page.section(
+        "What this does not say",
+        page.paragraph(f"{count} not a track's life. A main line carries some 10⁵ to 10⁶ axles a year (20 million "
+                       "gross tonnes on 25 t axles are 800 000), and between two tampings a sleeper sees as many. What "
+                       "is seen here is the beginning: the first rearrangement after tamping, fast and then slower. "
+                       "Breakage, attrition, fouling and weather, which rule later, are not in it.", "note"),
+        page.paragraph("So compare variants by these curves (a grading, a pad, a subgrade, an elastic sleeper against "
+                       "a rigid one), and do not extend them to a maintenance interval. Granular settlement is chaotic: "
+                       "one packing is one sample. A difference means something when it passes what several packings "
+                       "and a repeat that differs in the last bit scatter by: trackbed compare SCENE --packings N "
+                       "says when."))
+
+
+def build(folder, with_pictures=True, width=None):
+    """Writes every figure and the page; returns the page's path."""
+    style.use()
+    run = Run(folder)
+    parts = [headline(run)]
+    if with_pictures:
+        parts.append(pictures(run, folder, width))
+    for title, curves in CURVES:
+        shown = []
+        for name, label, make in curves:
+            made, why = attempt(make, run)
+            if made is None:
+                shown.append(page.missing(label, why))
+                continue
+            path = os.path.join(folder, f"{name}.png")
+            _, why = attempt(style.save, made[0], path)
+            shown.append(page.figure(path, made[1]) if why is None else page.missing(label, why))
+        parts.append(page.section(title, page.grid(*shown)))
+    parts.append(effects(run))
+    parts.append(caution(run))
+    out = os.path.join(folder, "report.html")
+    page.write(out, run.title, "Trackbed: settlement of a ballast bed under cyclic load", parts,
+               "Files beside this page: cycles.csv, history.csv, energy.csv and the others hold every number shown; "
+               "snapshots.xdmf and structure_*.pvd open in ParaView; scene.resolved.prm repeats the run. SI units "
+               "in the files.")
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Figures and one self-contained page of a run.")
+    parser.add_argument("folder", help="folder of a run")
+    parser.add_argument("--no-pictures", action="store_true", help="curves only, a few seconds")
+    parser.add_argument("--width", type=int, help="width of the renderings in pixels")
+    options = parser.parse_args()
+    if not os.path.isdir(options.folder):
+        print(f"report: {options.folder} is not a folder", file=sys.stderr)
+        return 2
+    try:
+        print(build(options.folder, not options.no_pictures, options.width))
+    except OSError as why:
+        print(f"report: {options.folder} cannot be written: {why}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -163,14 +163,15 @@ def make_run(folder, grains=70, elastic=True, seed=1, nudge=0.0, cycles=12):
         rows.append((t, "load", 3e3 + 77e3 * share, base + np.interp(at, n, swing) * lag, 1e-3, 3100, 6.3))
     write_csv(to("history.csv"), ["time_s", "stage", "load_N", "u_m", "kinetic_J", "contacts", "coordination"], rows)
     time = np.linspace(0, 2 + 0.1 * cycles, 200)
-    friction, local = 55 * (1 - np.exp(-time / 1.2)), 70 * (1 - np.exp(-3 * time))
+    friction = 55 * (1 - np.exp(-time / 1.2))
     gravity = 120 * np.exp(-4 * time)
     kinetic = 40 * time * np.exp(-5 * time)
     contact = 3 + 2 * np.sin(2 * np.pi * time) ** 2 * (time > 1)
     structure = 4 * np.sin(2 * np.pi * 10 * time) ** 2 * (time > 2) * elastic
     transfer = 1e-13 * time
     work = 60 * np.clip(time - 0.8, 0, None) / 2.4
-    closure = 0.004 * np.sin(time) * work
+    closure = 0.004 * np.sin(4 * time) * (work + 120 - gravity)
+    local = work + 120 - gravity - kinetic - (contact - 3) - structure - friction - closure
     write_csv(to("energy.csv"), ["time_s", "kinetic_J", "gravity_J", "contact_J", "structure_J", "work_J",
                                  "dissipated_friction_J", "dissipated_local_damping_J", "transfer_error_J",
                                  "closure_J"],
