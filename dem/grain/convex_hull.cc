@@ -33,11 +33,13 @@ double extent(const std::vector<Vec3>& points) {
   return (high - low).norm();
 }
 
+bool before(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
 // Without points that lie within `tolerance` of an earlier one (sweep along x).
 std::vector<Vec3> without_duplicates(std::vector<Vec3> points, double tolerance) {
-  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  });
+  std::sort(points.begin(), points.end(), before);
   std::vector<Vec3> kept;
   for (const Vec3& p : points) {
     bool twin = false;
@@ -48,24 +50,29 @@ std::vector<Vec3> without_duplicates(std::vector<Vec3> points, double tolerance)
   return kept;
 }
 
+// `points` are sorted and distinct. CGAL's order of facets changes from run to run (it follows
+// addresses); here vertices keep the order of the points and triangles are sorted.
 TriangleHull triangle_hull(const std::vector<Vec3>& points) {
   std::vector<Kernel::Point_3> input;
   for (const Vec3& p : points) input.emplace_back(p.x(), p.y(), p.z());
   CGAL::Object result;
   CGAL::convex_hull_3(input.begin(), input.end(), result);
-  TriangleHull hull;
   CGAL::Polyhedron_3<Kernel> solid;
   if (!CGAL::assign(solid, result)) throw InputError("convex hull: the points are coplanar");
-  std::map<const void*, int> number;
-  for (auto v = solid.vertices_begin(); v != solid.vertices_end(); ++v) {
-    number[&*v] = static_cast<int>(hull.vertices.size());
-    hull.vertices.emplace_back(v->point().x(), v->point().y(), v->point().z());
-  }
+  const auto number = [&](const Kernel::Point_3& p) {
+    const auto found =
+        std::lower_bound(points.begin(), points.end(), Vec3(p.x(), p.y(), p.z()), before);
+    return static_cast<int>(found - points.begin());
+  };
+  TriangleHull hull{points, {}};  // points inside are dropped when faces are made
   for (auto f = solid.facets_begin(); f != solid.facets_end(); ++f) {
     const auto h = f->halfedge();
-    hull.triangles.push_back({number.at(&*h->vertex()), number.at(&*h->next()->vertex()),
-                              number.at(&*h->next()->next()->vertex())});
+    Triangle t = {number(h->vertex()->point()), number(h->next()->vertex()->point()),
+                  number(h->next()->next()->vertex()->point())};
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    hull.triangles.push_back(t);
   }
+  std::sort(hull.triangles.begin(), hull.triangles.end());
   return hull;
 }
 
@@ -153,8 +160,11 @@ Polyhedron compact(const TriangleHull& hull, const std::vector<std::vector<int>>
     std::vector<int> face;
     for (int v : loop)
       if (number[v] >= 0) face.push_back(number[v]);
+    if (!face.empty())
+      std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
     body.faces.push_back(face);
   }
+  std::sort(body.faces.begin(), body.faces.end());
   return body;
 }
 
@@ -200,10 +210,9 @@ Polyhedron convex_hull(const std::vector<Vec3>& points, double share) {
     Polyhedron body = compact(hull, loops);
     if (closed_surface(body)) return body;
   }
-  Polyhedron body;  // the triangles as they are
-  body.vertices = hull.vertices;
-  for (const Triangle& t : hull.triangles) body.faces.push_back({t[0], t[1], t[2]});
-  return body;
+  std::vector<std::vector<int>> triangles;  // unmerged
+  for (const Triangle& t : hull.triangles) triangles.push_back({t[0], t[1], t[2]});
+  return compact(hull, triangles);
 }
 
 }  // namespace trackbed::dem

@@ -1,0 +1,8 @@
+trackbed_test(grain_polyhedron unit trackbed_dem)
+trackbed_test(grain_generators unit trackbed_dem)
+trackbed_test(grain_files unit trackbed_dem)
+trackbed_test(grain_shape_indices unit trackbed_dem)
+trackbed_test(grading_curve unit trackbed_dem)
+trackbed_test(grading_draw unit trackbed_dem)
+trackbed_test(grain_mass verification trackbed_dem)
+trackbed_test(sieve_size verification trackbed_dem)

@@ -1,0 +1,165 @@
+// Solids from files: what is read, and the one line that each bad file gets.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "dem/grain/off_io.h"
+#include "tests/unit/grain_solids.h"
+
+namespace trackbed::dem {
+namespace {
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ =
+        std::filesystem::temp_directory_path() / (std::string("trackbed_files_") + info->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& text = "") {
+    const std::string path = (folder_ / name).string();
+    if (!text.empty()) std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  // The file is refused in one line that names it and holds `part`.
+  void refused(const std::string& name, const std::string& text, const std::string& part) {
+    const std::string path = file(name, text);
+    try {
+      read_solid(path);
+      ADD_FAILURE() << name << " was read";
+    } catch (const InputError& e) {
+      const std::string what = e.what();
+      EXPECT_NE(what.find(path), std::string::npos) << what;
+      EXPECT_NE(what.find(part), std::string::npos) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    }
+  }
+  std::filesystem::path folder_;
+};
+
+const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+const std::string faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+TEST_F(Files, OffRoundTripKeepsAllDigits) {
+  const Polyhedron given = solids::moved(solids::icosahedron(), solids::any_turn, {1, 2, 3});
+  write_off(file("a.off"), given);
+  const Polyhedron read = read_solid(file("a.off"));
+  EXPECT_EQ(read.vertices.size(), 12u);
+  EXPECT_EQ(read.faces.size(), 20u);
+  EXPECT_NEAR(mass_properties(read).volume / mass_properties(given).volume, 1, 1e-14);
+}
+
+TEST_F(Files, OffWithCommentsUnitAndColours) {
+  const std::string path = file("a.off", "OFF # a corner\n4 4 0\n\n" + vertices +
+                                             "3 0 2 1 255 0 0\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  EXPECT_NEAR(mass_properties(read_solid(path)).volume, 1. / 6, 1e-15);
+  EXPECT_NEAR(mass_properties(read_solid(path, {0.001, false})).volume, 1e-9 / 6, 1e-24);
+}
+
+TEST_F(Files, ObjWithNormalsAndNegativeIndices) {
+  const std::string path = file("a.OBJ",
+                                "o corner\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\n"
+                                "f 1//1 3//1 2//1\nf 1/1 2/2 4/3\nf -3 -2 -1\nf 1 4 3\n");
+  EXPECT_NEAR(mass_properties(read_solid(path)).volume, 1. / 6, 1e-15);
+}
+
+std::string stl_cube(bool binary) {  // 12 triangles, turned, single precision
+  const Polyhedron cube = solids::moved(make_box({1, 1, 1}), solids::any_turn, {0, 0, 0});
+  std::string ascii = "solid cube\n", bytes(80, ' ');
+  const std::uint32_t count = 12;
+  bytes.append(reinterpret_cast<const char*>(&count), 4);
+  for (const auto& f : cube.faces)
+    for (int k : {1, 2}) {
+      float values[12] = {0, 0, 0};
+      ascii += "facet normal 0 0 0\nouter loop\n";
+      for (int c = 0; c < 3; ++c) {
+        const Vec3& v = cube.vertices[f[c == 0 ? 0 : k + c - 1]];
+        for (int d = 0; d < 3; ++d) values[3 + 3 * c + d] = float(v[d]);
+        ascii += "vertex " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+                 std::to_string(v.z()) + "\n";
+      }
+      ascii += "endloop\nendfacet\n";
+      bytes.append(reinterpret_cast<const char*>(values), 48);
+      bytes.append(2, '\0');
+    }
+  return binary ? bytes : ascii + "endsolid cube\n";
+}
+
+TEST_F(Files, StlAsciiAndBinaryMergeTheirTriangles) {
+  const Polyhedron b = read_solid(file("b.stl", stl_cube(true)));
+  EXPECT_EQ(b.vertices.size(), 8u);
+  EXPECT_EQ(b.faces.size(), 6u);
+  EXPECT_NEAR(mass_properties(b).volume, 1, 1e-6);
+  const Polyhedron a = read_solid(file("a.stl", stl_cube(false)));
+  EXPECT_EQ(a.vertices.size(), 8u);
+  EXPECT_NEAR(mass_properties(a).volume, 1, 1e-5);
+}
+
+TEST_F(Files, BadSolids) {
+  const std::string head = "OFF\n4 4 6\n";
+  refused("open.off", "OFF\n4 3 6\n" + vertices + "3 0 2 1\n3 0 1 3\n3 1 2 3\n", "open");
+  refused("inside.off", head + vertices + "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 0 2 3\n", "inside-out");
+  refused("wound.off", head + vertices + "3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 3 2\n", "wound");
+  refused("nan.off", head + "0 0 0\n1 0 nan\n0 1 0\n0 0 1\n" + faces, "line 4: coordinate 'nan'");
+  refused("inf.off", head + "0 0 0\n1 0 inf\n0 1 0\n0 0 1\n" + faces, "not a finite");
+  refused("flat.off", head + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n" + faces, "no volume");
+  refused("point.off", head + "1 1 1\n1 1 1\n1 1 1\n1 1 1\n" + faces, "no volume");
+  refused("index.off", head + vertices + "3 0 2 4\n3 0 1 3\n3 1 2 3\n3 0 3 2\n", "does not exist");
+  refused("short.off", head + vertices + "3 0 2 1\n", "ends too early");
+  refused("word.off", head + "0 0 zero\n" + vertices + faces, "'zero' is not a number");
+  refused("head.off", "PLY\n4 4 6\n", "OFF");
+  refused("two.off", head + vertices + "2 0 2\n3 0 1 3\n3 1 2 3\n3 0 3 2\n", "fewer than 3");
+  refused("none.off", "OFF\n0 0 0\n", "no faces");
+  refused("a.ply", "ply\n", ".off, .obj and .stl");
+  refused("a.stl", "not a solid at all", "STL");
+  refused("cut.stl", stl_cube(true).substr(0, 300), "STL");
+  refused("early.stl", "solid a\nfacet\nouter loop\nvertex 0 0 0\n", "ends too early");
+  refused("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 x\n", "'x' is not a vertex index");
+  refused("zero.obj", "v 0 0 0\nv 1 0 0\nf 1 2 0\n", "does not exist");
+  refused("missing.off", "", "cannot be opened");
+  refused("pair.off",
+          "OFF\n8 8 0\n" + vertices + "5 0 0\n6 0 0\n5 1 0\n5 0 1\n" + faces +
+              "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n",
+          "more than one solid");
+}
+
+// A cube whose top has a pit: closed, not convex.
+const std::string pit =
+    "OFF\n9 9 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n.5 .5 .5\n"
+    "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+    "3 4 5 8\n3 5 6 8\n3 6 7 8\n3 7 4 8\n";
+
+TEST_F(Files, NotConvexIsRefusedOrReplacedByItsHull) {
+  refused("pit.off", pit, "not convex");
+  const Polyhedron hull = read_solid(file("pit.off"), {1, true});
+  EXPECT_EQ(hull.faces.size(), 6u);
+  EXPECT_NEAR(mass_properties(hull).volume, 1, 1e-14);
+}
+
+TEST_F(Files, SelfIntersectionIsNamed) {
+  std::string deep = pit;  // the pit's point below the bottom
+  deep.replace(deep.find(".5 .5 .5"), 8, ".5 .5 -1");
+  deep = "OFF\n9 9 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n.5 .5 -.4\n" +
+         deep.substr(deep.find("4 0 3 2 1"));
+  refused("deep.off", deep, "intersects itself");
+}
+
+TEST_F(Files, UnwritablePathIsNamed) {
+  const std::string path = file("no/such/folder/a.off");
+  try {
+    write_off(path, make_box({1, 1, 1}));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find(path), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace trackbed::dem
