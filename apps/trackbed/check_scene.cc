@@ -54,13 +54,14 @@ void check_gradation(const Check& c) {
     if (g.passing.front() > 0 && g.sieves.size() == 1 && g.passing.front() < 100)
       c.refuse("Gradation/Sieves", "one sieve makes no class; at least two are needed");
   }
+  const auto curve =
+      g.curve == "table" ? dem::make_curve(g.sieves, g.passing) : dem::named_curve(g.curve);
+  if (curve.passing.back() < 100 && g.top_sieve <= curve.sieve.back())
+    c.refuse("Gradation/Top sieve", "the curve ends below 100 % at " + metres(curve.sieve.back()) +
+                                        ", so the largest grains need a wider sieve than that");
   const auto classes = gradation_classes(c.scene);
   if (classes.empty())
     c.refuse("Gradation/Passing", "no class holds any mass; passing must reach beyond 0 %");
-  const double last = classes.back().lower;
-  if (classes.back().open && g.top_sieve <= last)
-    c.refuse("Gradation/Top sieve", "the curve ends below 100 % at " + metres(last) +
-                                        ", so the largest grains need a wider sieve than that");
   const double largest = classes.back().upper;
   const double room = std::min({c.scene.container.length * (c.scene.container.half ? 0.5 : 1.0),
                                 c.scene.container.width, c.scene.container.depth});

@@ -1,14 +1,16 @@
 #include "apps/trackbed/choices.h"
 
+#include "dem/grading/curve.h"
+#include "dem/grading/sieve_size.h"
+#include "dem/grain/library.h"
+
 namespace trackbed::apps {
 
-std::vector<std::string> grain_generators() { return {"voronoi", "ellipsoid_hull"}; }
+std::vector<std::string> grain_generators() { return dem::generator_names(); }
 
-std::vector<std::string> sieve_methods() {
-  return {"exact", "shao2017", "elias2014", "equal_sphere", "equal_cube"};
-}
+std::vector<std::string> sieve_methods() { return dem::sieve_method_names(); }
 
-std::vector<std::string> gradation_curves() { return {"shao_wide", "shao_large", "shao_small"}; }
+std::vector<std::string> gradation_curves() { return dem::curve_names(); }
 
 std::vector<std::string> contact_laws() { return {"stored_energy", "shao2017"}; }
 

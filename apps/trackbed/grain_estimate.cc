@@ -4,39 +4,24 @@
 
 namespace trackbed::apps {
 
-void gradation_curve(const GradationScene& g, std::vector<double>& sieves,
-                     std::vector<double>& passing) {
-  if (g.curve == "table") {
-    sieves = g.sieves;
-    passing = g.passing;
-    return;
-  }
-  // Shao 2017, Table 4.
-  sieves = {0.016, 0.025, 0.0355, 0.045, 0.056, 0.063};
-  if (g.curve == "shao_large")
-    passing = {0, 0, 0, 0, 0, 100};
-  else if (g.curve == "shao_small")
-    passing = {0, 0, 100, 100, 100, 100};
-  else
-    passing = {0, 0, 4, 33, 79, 95};
+dem::SieveCurve gradation_curve(const GradationScene& g) {
+  dem::SieveCurve curve =
+      g.curve == "table" ? dem::make_curve(g.sieves, g.passing) : dem::named_curve(g.curve);
+  if (curve.passing.back() < 100) curve.top = g.top_sieve;
+  return curve;
 }
 
 std::vector<GradationClass> gradation_classes(const Scene& scene) {
-  std::vector<double> sieves, passing;
-  gradation_curve(scene.gradation, sieves, passing);
+  const dem::SieveCurve curve = gradation_curve(scene.gradation);
   const double total = bed_mass(scene);
   std::vector<GradationClass> classes;
-  auto add = [&](double lower, double upper, double percent, bool open) {
-    if (percent <= 0) return;
-    const double d = 0.5 * (lower + upper), mass = 0.01 * percent * total;
-    classes.push_back({lower, upper, 0.01 * percent, mass,
-                       mass / (scene.grains.density * 0.6 * d * d * d), open});
-  };
-  if (sieves.empty()) return classes;
-  add(0.5 * sieves.front(), sieves.front(), passing.front(), false);
-  for (std::size_t i = 1; i < sieves.size(); ++i)
-    add(sieves[i - 1], sieves[i], passing[i] - passing[i - 1], false);
-  add(sieves.back(), scene.gradation.top_sieve, 100 - passing.back(), true);
+  for (const auto& k : dem::sieve_classes(curve)) {
+    if (k.percent <= 0) continue;
+    const double d = 0.5 * (k.low + k.high), mass = 0.01 * k.percent * total;
+    classes.push_back({k.low, k.high, 0.01 * k.percent, mass,
+                       mass / (scene.grains.density * 0.6 * d * d * d),
+                       k.low >= curve.sieve.back()});
+  }
   return classes;
 }
 

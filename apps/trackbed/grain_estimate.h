@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "apps/trackbed/scene.h"
+#include "dem/grading/curve.h"
 
 namespace trackbed::apps {
 
@@ -15,9 +16,9 @@ struct GradationClass {
   bool open;            ///< beyond the last sieve: `upper` is Gradation/Top sieve
 };
 
-/// Sieve openings [m] and mass passing [%] of the scene's curve, as named or as given.
-void gradation_curve(const GradationScene&, std::vector<double>& sieves,
-                     std::vector<double>& passing);
+/// The scene's curve, by name or from its table, with the top sieve that the scene gives. A named
+/// curve that ends at 100 % keeps its own ends.
+dem::SieveCurve gradation_curve(const GradationScene&);
 
 /// The classes that hold mass, from small to large.
 std::vector<GradationClass> gradation_classes(const Scene&);

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "apps/trackbed/commands.h"
-#include "apps/trackbed/nearest_name.h"
 #include "base/error.h"
+#include "dem/grain/nearest_name.h"
 
 namespace {
 
@@ -46,7 +46,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
   const auto chosen = app.get_subcommands();
   if (chosen.empty() && argc > 1 && argv[1][0] != '-')
     return std::string("unknown command '") + argv[1] + "'; nearest: '" +
-           nearest_name(argv[1], commands) + "' (trackbed --help lists all)";
+           trackbed::dem::nearest_name(argv[1], commands) + "' (trackbed --help lists all)";
   const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
   std::string text = error.what();
   for (auto& c : text)
@@ -87,7 +87,7 @@ int run_program(int argc, char** argv) {
   command->callback([&] { chosen = [&] { return parameters_command(parameters); }; });
 
   SieveOptions sieve;
-  command = app.add_subcommand("sieve", "sizes of OFF, OBJ or STL solids as CSV");
+  command = app.add_subcommand("sieve", "sizes of OFF, OBJ or STL solids as CSV, in the unit of the files");
   command->add_option("GRAINS", sieve.grains, "files, one solid each")->required();
   command->add_option("--method", sieve.method, "a sieve method's name, or all [exact]")
       ->type_name("NAME");

@@ -4,15 +4,16 @@
 
 #include <sstream>
 
-#include "apps/trackbed/nearest_name.h"
 #include "apps/trackbed/parameters.h"
 #include "base/error.h"
+#include "dem/grain/nearest_name.h"
 
 namespace trackbed::apps {
 namespace {
 
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
+using dem::nearest_name;
 
 std::unique_ptr<Patterns::PatternBase> pattern_of(const Parameter& p) {
   switch (p.kind) {

@@ -78,7 +78,7 @@ void add_grains(Section s) {
 void add_gradation(Section s) {
   auto curves = gradation_curves();
   curves.push_back("table");
-  s.choice("Curve", "shao_wide", curves, "sieve curve by name, or table to give it here");
+  s.choice("Curve", "shao2017_wide", curves, "sieve curve by name, or table to give it here");
   s.numbers("Sieves", "", "m", 1e-6, 10, "of a table: openings, rising, such as 0.025, 0.0355");
   s.numbers("Passing", "", "%", 0, 100, "of a table: mass passing each sieve, never falling");
   s.number("Top sieve", "0.071", "m", 1e-6, 10,
@@ -131,7 +131,7 @@ void add_sleeper(Section s) {
   s.number("Poisson", "0.2", "-", 0, 0.49999, "Poisson's ratio");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on sleeper");
   s.numbers("Elements", "4, 4, 3", "-", 1, 1000, "in x, y and z, of an elastic sleeper");
-  s.integer("Order", "2", 1, 4, "polynomial degree of the elements");
+  s.integer("Order", "2", 1, 2, "polynomial degree of the elements");
   s.number("Pad thickness", "0", "m", 0, 0.2, "of an under-sleeper pad within Height; 0 = none");
   s.number("Pad modulus", "5e6", "Pa", 1e3, 1e13, "Young's modulus of the pad");
   s.number("Pad Poisson", "0.4", "-", 0, 0.49999, "Poisson's ratio of the pad");
@@ -150,7 +150,7 @@ void add_subgrade(Section s) {
          "from the top down, thickness:E:nu:density of each; together as thick as Depth");
   s.numbers("Elements", "", "-", 1, 1000, "in x and y; empty = by Element size");
   s.number("Element size", "0.1", "m", 1e-4, 10, "largest edge of an element");
-  s.integer("Order", "1", 1, 4, "polynomial degree of the elements");
+  s.integer("Order", "1", 1, 2, "polynomial degree of the elements");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on subgrade");
   s.text("Mesh", "", "-", "Gmsh file instead of a block, relative to this file; empty = block");
 }
@@ -222,18 +222,23 @@ std::string parameter_path(const Parameter& parameter) {
   return parameter.section.empty() ? parameter.key : parameter.section + "/" + parameter.key;
 }
 
+std::string join_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
 std::string allowed_text(const Parameter& p) {
   switch (p.kind) {
     case ParameterKind::boolean:
       return "true or false";
     case ParameterKind::text:
       return "any text";
-    case ParameterKind::choice: {
-      std::string text;
-      for (const auto& choice : p.choices)
-        text += (text.empty() ? "" : choice == p.choices.back() ? " or " : ", ") + choice;
-      return text;
-    }
+    case ParameterKind::choice:
+      return join_names(p.choices);
     default:
       break;
   }

@@ -18,6 +18,9 @@ std::string parameter_path(const Parameter&);
 /// "rigid or elastic".
 std::string allowed_text(const Parameter&);
 
+/// "a, b or c"
+std::string join_names(const std::vector<std::string>& names);
+
 /// "" if `value` is of the parameter's kind and in range; else what is wrong with it, such as
 /// "is not a number" or "is out of range".
 std::string fault_of(const Parameter&, const std::string& value);

@@ -5,8 +5,8 @@
 
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/json_text.h"
-#include "apps/trackbed/nearest_name.h"
 #include "base/error.h"
+#include "dem/grain/nearest_name.h"
 
 namespace trackbed::apps {
 namespace {
@@ -89,7 +89,7 @@ class PrmReader {
         read(other.string(), depth + 1);
       } else {
         throw InputError(here.place() + ": '" + word + "' is not a command; nearest: '" +
-                         nearest_name(word, {"subsection", "set", "end", "include"}) + "'");
+                         dem::nearest_name(word, {"subsection", "set", "end", "include"}) + "'");
       }
     }
     if (!opened.empty())

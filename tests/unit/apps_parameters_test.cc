@@ -1,0 +1,149 @@
+// From text to a checked scene.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "apps/trackbed/files.h"
+#include "apps/trackbed/layers.h"
+#include "apps/trackbed/parameter_values.h"
+#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/plan.h"
+#include "apps/trackbed/read_scene.h"
+#include "apps/trackbed/scene_text.h"
+#include "base/error.h"
+
+namespace trackbed::apps {
+namespace {
+
+class Parameters : public testing::Test {
+ protected:
+  Parameters() {
+    std::string name = (std::filesystem::temp_directory_path() / "trackbed.XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Parameters() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    write_aside_then_rename(folder_ + "/" + name, text);
+    return folder_ + "/" + name;
+  }
+  std::string folder_;
+};
+
+TEST(ParameterTable, EveryDefaultIsAllowed) {
+  std::set<std::string> paths;
+  for (const auto& p : scene_parameters()) {
+    EXPECT_EQ(fault_of(p, p.fallback), "") << parameter_path(p);
+    EXPECT_FALSE(p.meaning.empty()) << parameter_path(p);
+    EXPECT_FALSE(p.unit.empty()) << parameter_path(p);
+    EXPECT_TRUE(paths.insert(parameter_path(p)).second) << parameter_path(p) << " twice";
+  }
+}
+
+TEST_F(Parameters, AnEmptyFileIsTheDefaultBallastBox) {
+  const Scene scene = read_scene(write("empty.prm", ""));
+  EXPECT_EQ(scene.name, "empty");
+  EXPECT_EQ(scene.container.length, 0.6);
+  EXPECT_EQ(scene.gradation.curve, "shao2017_wide");
+  EXPECT_EQ(scene.loading.largest, 8e4);
+}
+
+TEST_F(Parameters, WhatIsPrintedIsReadBack) {
+  const auto table = scene_parameters();
+  const Scene plain = read_scene(write("empty.prm", ""));
+  const Scene prm = read_scene(write("a.prm", print_defaults(table, ParameterFormat::prm)));
+  const Scene json = read_scene(write("a.json", print_defaults(table, ParameterFormat::json)));
+  const Scene again = read_scene(write("b.prm", plain.resolved));
+  EXPECT_EQ(prm.values, plain.values);
+  EXPECT_EQ(json.values, plain.values);
+  EXPECT_EQ(again.values, plain.values);
+}
+
+TEST_F(Parameters, PlainJsonWithNumbersAndLists) {
+  const Scene scene = read_scene(write("a.json", R"({
+    "Title": "A \"small\" one",
+    "Gradation": {"Curve": "table", "Sieves": [0.0355, 0.045, 0.056], "Passing": [0, 40, 100]},
+    "Sleeper": {"Model": "rigid", "Vertical only": true},
+    "Contact": {"Contact modulus": 1e8}})"));
+  EXPECT_EQ(scene.title, "A \"small\" one");
+  EXPECT_EQ(scene.gradation.sieves, (std::vector<double>{0.0355, 0.045, 0.056}));
+  EXPECT_EQ(scene.contact.modulus, 1e8);
+  EXPECT_TRUE(scene.sleeper.vertical_only);
+}
+
+TEST_F(Parameters, IncludedFilesStandBelowTheIncludingOne) {
+  std::filesystem::create_directory(folder_ + "/common");
+  write("common/base.prm", "subsection Loading\n  set Cycles = 7\n  set Frequency = 3\nend\n");
+  const Scene scene = read_scene(
+      write("a.prm", "include common/base.prm\nsubsection Loading\n  set Cycles = 9\nend\n"));
+  EXPECT_EQ(scene.loading.cycles, 9);
+  EXPECT_EQ(scene.loading.frequency, 3);
+}
+
+TEST_F(Parameters, OverridesWinAndAreResolved) {
+  const std::string file = write("a.prm", "subsection Grains\n  set Seed = 5\nend\n");
+  const Scene scene = read_scene(file, {"Grains/Seed=9007199254740993", "Loading/Cycles = 3"});
+  EXPECT_EQ(scene.grains.seed, 9007199254740993u);
+  EXPECT_EQ(scene.loading.cycles, 3);
+  EXPECT_NE(scene.resolved.find("9007199254740993"), std::string::npos);
+}
+
+TEST_F(Parameters, CommentsAndContinuedLines) {
+  const auto entries = read_scene_text(write(
+      "a.prm", "# first\nsubsection Sleeper # s\n  set Seats = -0.05, \\\n    0.05 # both\nend"));
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].path(), "Sleeper/Seats");
+  EXPECT_EQ(entries[0].line, 3);
+  std::vector<double> seats;
+  EXPECT_TRUE(parse_numbers(entries[0].value, seats));
+  EXPECT_EQ(seats, (std::vector<double>{-0.05, 0.05}));
+}
+
+TEST(Numbers, WholeTextOrNothing) {
+  double x = 0;
+  EXPECT_TRUE(parse_number("-1.5e-3", x));
+  EXPECT_EQ(x, -1.5e-3);
+  for (const char* wrong : {"", "1 2", "1.5m", "nan", "inf", "0x10", "1e999", "--1", "1,5"})
+    EXPECT_FALSE(parse_number(wrong, x)) << wrong;
+}
+
+TEST(Layers, FromTheTopDown) {
+  std::string fault;
+  const auto layers = parse_layers("0.2:1e8:0.3:2000, 0.4:5e7:0.499:1900", fault);
+  EXPECT_EQ(fault, "");
+  ASSERT_EQ(layers.size(), 2u);
+  EXPECT_EQ(layers[1].poisson, 0.499);
+  parse_layers("0.2:1e8:0.5:2000", fault);
+  EXPECT_NE(fault.find("layer 1"), std::string::npos);
+  parse_layers("0.2:1e8:0.3", fault);
+  EXPECT_NE(fault, "");
+}
+
+TEST(Scenes, AllThatAreShippedAreValid) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SCENES)) {
+    if (entry.path().extension() != ".prm") continue;
+    ++count;
+    const Scene scene = read_scene(entry.path().string());
+    EXPECT_GT(make_plan(scene, 2).grains, 10) << entry.path();
+  }
+  EXPECT_GE(count, 4);
+}
+
+TEST(Scenes, TheBallastBoxHasAbout730Grains) {
+  // METHODS A: 108.36 kg, about 730 grains counted class by class with V = 0.6 d3.
+  const Plan plan = make_plan(read_scene(SCENES "/ballast_box.prm"), 2);
+  EXPECT_NEAR(plan.grains, 730, 40);
+  EXPECT_LT(make_plan(read_scene(SCENES "/small_box.prm"), 2).grains, 100);
+}
+
+TEST(Scenes, HalfBySymmetryHalvesTheFullSleeper) {
+  const std::string file = SCENES "/full_sleeper.prm";
+  const Plan whole = make_plan(read_scene(file), 2);
+  const Plan half = make_plan(read_scene(file, {"Container/Half by symmetry=true"}), 2);
+  EXPECT_NEAR(half.grains, 0.5 * whole.grains, 1e-6 * whole.grains);
+}
+
+}  // namespace
+}  // namespace trackbed::apps
