@@ -25,7 +25,7 @@ struct ContainerScene {
 };
 
 struct GrainScene {
-  std::string generator;  ///< "voronoi" | "ellipsoid_hull"
+  std::string generator;  ///< "voronoi" | "ellipsoid"
   int library;            ///< shapes in the library
   std::uint64_t seed;
   double density;            ///< [kg/m3]
