@@ -39,6 +39,7 @@ class Bed:
         reach = np.zeros(self.grains)
         np.maximum.at(reach, owner, np.linalg.norm(corners - centre[owner][:, None], axis=2).max(axis=1))
         self.grain_size = float(np.median(reach[reach > 0])) * 1.6
+        self.reach = reach
         self.centre, self.corners, self.owner = centre, corners, owner
         low, high = points.min(axis=0), points.max(axis=0)
         self.low, self.high = low, high
@@ -215,6 +216,9 @@ def chains(run, width=1300, directions=None, bed=None, backdrop=None):
         grain = pair[:, side]
         real = (grain >= 0) & (grain < len(centre)) & np.isfinite(point).all(axis=1) & (size > 0.03 * full)
         real[real] &= centre[grain[real]][:, bed.inward] >= bed.cut
+        # A contact across a periodic border lies a bay away from one of its two grains: that half is left out.
+        real[real] &= np.linalg.norm(point[real] - centre[grain[real]], axis=1) <= 1.3 * bed.reach[
+            np.minimum(grain[real], len(bed.reach) - 1)] + 1e-12
         starts.append(centre[grain[real]])
         ends.append(point[real])
         force.append(size[real])
@@ -369,7 +373,7 @@ def compose(picture):
     inches = 8.5
     tall = inches * height / width
     foot = 0.62
-    figure = plt.figure(figsize=(inches, tall + foot), layout="none")
+    figure = plt.figure(figsize=(inches, tall + foot), layout="none", dpi=max(width / inches, 110))
     axes = figure.add_axes([0, foot / (tall + foot), 1, tall / (tall + foot)])
     axes.imshow(picture.image, interpolation="lanczos")
     axes.set_axis_off()

@@ -32,7 +32,7 @@ QUANTITIES = [
     ("peak pressure under the sleeper (99th percentile)", "Pa", measures.pressure_peak, 1e-3, "kPa"),
     ("unevenness of that pressure (deviation over mean)", "1", measures.pressure_spread, 1, ""),
     ("largest bending moment of the sleeper", "N.m", measures.moment_largest, 1e-3, "kN·m"),
-    ("deflection range along the sleeper", "m", measures.deflection_range, 1e3, "mm"),
+    ("bending of the sleeper (deflection range, tilt taken out)", "m", measures.deflection_range, 1e3, "mm"),
     ("force on a grain (95th percentile of the largest)", "N", measures.grain_force, 1e-3, "kN"),
     ("contacts a grain at the end", "1", measures.coordination, 1, ""),
 ]
@@ -120,6 +120,8 @@ def compare_one(study, quantity, unit, measure, scale, shown_unit):
 
 def verdict(row):
     size = abs(row.difference)
+    if size == 0:
+        return "none (equal)"
     if np.isfinite(row.floor) and size <= row.floor:
         return f"none (below the noise floor of {number(row.floor, 2)} %)"
     if np.isfinite(row.difference_ci) and size <= row.difference_ci:

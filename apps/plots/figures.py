@@ -23,6 +23,8 @@ def _mark(cycles):
 def settlement(run):
     cycles = run.table("cycles.csv")
     n, low, high = cycles["cycle"], cycles["u_min_m"] * 1e3, cycles["u_max_m"] * 1e3
+    measures.finite(low, "u_min_m")
+    measures.finite(high, "u_max_m")
     figure, axes = plt.subplots()
     axes.fill_between(n, low, high, color=style.BLUE, alpha=0.08, linewidth=0)
     axes.plot(n, high, color=style.RUST, marker=_mark(len(n)), label="at the load maximum, u$_{max}$")
@@ -39,7 +41,7 @@ def settlement(run):
     if len(n) >= 6:
         half = len(n) // 2
         settled = cycles["settlement_m"]
-        early, late = settled[half] - settled[0], settled[-1] - settled[half]
+        early, late = settled[half - 1], settled[-1] - settled[half - 1]
         if early > 0 and total > 0:
             text += f" The first half of the cycles made {number(100 * early / (early + late), 2)} % of the settlement."
     return figure, text
@@ -96,6 +98,7 @@ def stiffness(run):
 def gradation(run):
     table = run.table("gradation.csv")
     size = table["sieve_m"] * 1e3
+    measures.finite(table["achieved_percent"] - table["target_percent"], "achieved_percent")
     figure, axes = plt.subplots()
     low, high = table.get("band_min_percent"), table.get("band_max_percent")
     banded = low is not None and high is not None and np.isfinite(low.astype(float)).any()
@@ -125,6 +128,7 @@ def gradation(run):
 
 def compaction(run):
     table = run.table("compaction.csv")
+    measures.finite(table["density_kg_per_m3"], "density_kg_per_m3")
     figure, (top, bottom) = plt.subplots(2, 1, sharex=True, figsize=(style.COLUMN[0], 4.3))
     n = table["cycle"]
     top.plot(n, table["density_kg_per_m3"], color=style.MOSS, marker=_mark(len(n)))
@@ -144,37 +148,38 @@ def compaction(run):
 def energy(run):
     table = run.table("energy.csv")
     time = table["time_s"]
+    _, share = measures.closure(run)
     figure, (top, bottom) = plt.subplots(2, 1, sharex=True, figsize=(style.COLUMN[0], 5.0),
                                          gridspec_kw=dict(height_ratios=[2.4, 1]))
-    names, layers = [], []
-    for column, name in measures.dissipations(table):
-        if np.nanmax(np.abs(table[column])) > 0:
-            layers.append(table[column])
-            names.append("lost to " + name)
-    for column, name in (("contact_J", "stored in contacts"), ("structure_J", "stored in structures"),
-                         ("kinetic_J", "kinetic")):
-        if column in table and np.nanmax(np.abs(table[column])) > 0:
-            layers.append(table[column])
-            names.append(name)
+    base = np.zeros(table.rows)
     palette = [style.RUST, style.OCHRE, style.PLUM, "#93364a", "#8c8479"]
-    lost = sum(name.startswith("lost") for name in names)
-    colours = [palette[k % len(palette)] for k in range(lost)] + [style.BLUE, style.TEAL, style.MOSS]
-    if layers:
-        top.stackplot(time, [np.nan_to_num(layer) for layer in layers], labels=names,
-                      colors=colours[:len(layers)], alpha=0.8, linewidth=0)
+    drawn = 0
+    for column, name in measures.dissipations(table):
+        lost = np.nan_to_num(table[column] - table[column][0])
+        if np.abs(lost).max() > 0:
+            top.fill_between(time, base, base + lost, color=palette[drawn % len(palette)], alpha=0.8, linewidth=0,
+                             label="lost: " + name)
+            base = base + lost
+            drawn += 1
+    stored = np.zeros(table.rows)
+    for column in ("kinetic_J", "contact_J", "structure_J"):
+        if column in table:
+            stored = stored + np.nan_to_num(table[column] - table[column][0])
+    top.fill_between(time, base, base + stored, color=style.BLUE, alpha=0.35, linewidth=0,
+                     label="stored in contacts, structures, motion (change)")
     work = table["work_J"] - table["work_J"][0]
     released = table["gravity_J"][0] - table["gravity_J"] if "gravity_J" in table else 0 * work
-    start = sum(table[column][0] for column in ("kinetic_J", "contact_J", "structure_J") if column in table)
-    start += sum(table[column][0] for column, _ in measures.dissipations(table))
-    top.plot(time, work + released + start, color=style.INK, lw=1.3, label="entered: work + height given up")
+    balance = work + released
+    top.plot(time, balance, color=style.INK, lw=1.0, label="entered: work of loads + height given up")
     top.set_ylabel("energy (J)")
     handles, labels = top.get_legend_handles_labels()
-    top.legend(handles[::-1], labels[::-1], loc="upper left", fontsize=7, ncols=2)
-    peak = float(np.nanmax(work + released + start))
-    if peak > 0:
-        top.set_ylim(0, 1.45 * peak)
+    order = np.argsort([label.startswith("lost") for label in labels], kind="stable")
+    top.legend([handles[k] for k in order], [labels[k] for k in order], loc="upper left", fontsize=7, ncols=2)
+    high = float(np.nanmax(np.r_[balance, base, base + stored]))
+    low = float(np.nanmin(np.r_[balance, base + stored, 0.0]))
+    if high > low:
+        top.set_ylim(low - 0.02 * (high - low), high + 0.42 * (high - low))
     bound = 100 * measures.CLOSURE_TOLERANCE
-    _, share = measures.closure(run)
     percent = 100 * share
     bottom.axhspan(-bound, bound, color=style.MOSS, alpha=0.13, linewidth=0)
     bottom.text(0.995, 0.97, f"tolerance ±{number(bound)} %", transform=bottom.transAxes, ha="right", va="top",
@@ -186,15 +191,15 @@ def energy(run):
     bottom.set_ylabel("closure (%)")
     bottom.set_xlabel("time (s)")
     worst = float(np.nanmax(np.abs(percent)))
-    text = (f"Energy ledger (J). Above: the areas are where the energy is or went, the line is what entered; they meet "
-            f"when the books are right. Below: what is missing, as a share of the energy that has entered; at most "
+    text = (f"Energy ledger (J) since its first entry. Above: the areas are where energy went or is kept, the line is "
+            f"what entered; they meet when the books are right. Below: what is missing, as a share of the work put in "
+            f"so far (the sum of the work's rises, {number(float(measures.work_put_in(table)[-1]))} J in all); at most "
             f"{number(worst, 2)} %, {'within' if worst <= bound else 'OUTSIDE'} the tolerance of {number(bound)} %.")
-    if layers and peak > 0:
-        # Said, not hidden: bodies that come and go (plate, sleeper) or stages with books of their own.
-        apart = float(np.nanmax(np.abs(work + released + start - np.nansum(layers, axis=0)))) / peak
+    if high > 0:
+        # Said, not hidden: bodies that come and go between stages are in closure_J, not in the line.
+        apart = float(np.nanmax(np.abs(balance - base - stored))) / high
         if apart > 0.02:
-            text += (f" Areas and line lie up to {number(100 * apart, 2)} % of the largest entry apart: bodies that "
-                     "were put in or taken out between stages are in closure_J, not in the line.")
+            text += f" Areas and line lie up to {number(100 * apart, 2)} % of the largest entry apart."
     if "transfer_error_J" in table:
         text += (" Error of the exchange between grains and structures: "
                  f"{number(float(np.nanmax(np.abs(table['transfer_error_J']))), 2)} J.")
@@ -228,6 +233,7 @@ def overview(run):
     """The run in time: load, kinetic energy, coordination, with its stages."""
     table = run.table("history.csv")
     time = table["time_s"]
+    measures.finite(time, "time_s")
     shown = [(column, label, log) for column, label, log in
              (("load_N", "load (kN)", False), ("kinetic_J", "kinetic (J)", True),
               ("coordination", "contacts a grain", False)) if column in table]
@@ -300,8 +306,8 @@ def moment(run):
     bottom.set_ylabel("bending moment (kN·m)")
     bottom.set_xlabel("along the sleeper (mm)")
     return figure, (f"Deflection (mm, drawn downwards) and bending moment (kN·m) along the sleeper at a load maximum; "
-                    f"largest moment {number(measures.moment_largest(run) / 1e3)} kN·m, deflection range "
-                    f"{number(measures.deflection_range(run) * 1e3)} mm.")
+                    f"largest moment {number(measures.moment_largest(run) / 1e3)} kN·m (sagging positive); bent, "
+                    f"tilt taken out, by {number(measures.deflection_range(run) * 1e3)} mm.")
 
 
 def forces(run):

@@ -3,7 +3,7 @@ import numpy as np
 
 from read_run import Missing
 
-CLOSURE_TOLERANCE = 0.01   # of the energy that has entered; what a default run promises
+CLOSURE_TOLERANCE = 0.01   # of the work put in; what a default run promises
 
 
 def finite(values, what):
@@ -12,6 +12,15 @@ def finite(values, what):
     if not len(values):
         raise Missing(f"{what} holds no finite number")
     return values
+
+
+def cycle_count(run):
+    """Number of the last load cycle; 0 where cycles.csv does not say."""
+    cycles = run.try_table("cycles.csv")
+    try:
+        return int(finite(cycles["cycle"], "cycle")[-1]) if cycles is not None else 0
+    except (Missing, ValueError):
+        return 0
 
 
 def settlement(run):
@@ -54,8 +63,15 @@ def moment_largest(run):
 
 
 def deflection_range(run):
-    """Highest less lowest deflection along the sleeper's axis at a load maximum (m)."""
-    return float(np.ptp(finite(run.table("moment.csv")["deflection_m"], "deflection_m")))
+    """Highest less lowest deflection along the sleeper at a load maximum, its tilt taken out (m)."""
+    table = run.table("moment.csv")
+    moved = finite(table["deflection_m"], "deflection_m")
+    if len(moved) != table.rows or len(moved) < 3:
+        raise Missing("moment.csv has fewer than three finite deflections")
+    x = table["x_m"] - table["x_m"].mean()
+    tilt = np.polyfit(x, moved, 1)
+    bent = float(np.ptp(moved - np.polyval(tilt, x)))
+    return bent if bent > 1e-9 * max(float(np.abs(moved).max()), 1e-30) else 0.0   # a rigid one: rounding
 
 
 def grain_force(run):
@@ -77,24 +93,24 @@ def dissipations(energy):
             if name.startswith("dissipated_") and name.endswith("_J")]
 
 
-def entered(energy):
-    """Energy that has entered so far, J: work of the loads plus height given up, never decreasing."""
-    released = np.zeros(energy.rows)
-    if "gravity_J" in energy:
-        gravity = energy["gravity_J"]
-        released = gravity[0] - gravity
-    work = energy["work_J"] - energy["work_J"][0]
-    total = np.abs(work) + np.abs(released)
-    return np.maximum.accumulate(np.where(np.isfinite(total), total, 0.0))
+def work_put_in(energy):
+    """Work done so far, J: the sum of the rises of work_J; where no load works, of the height given up."""
+    def rises(values):
+        return np.concatenate([[0.0], np.cumsum(np.clip(np.nan_to_num(np.diff(values)), 0, None))])
+
+    work = rises(energy["work_J"])
+    if work[-1] == 0 and "gravity_J" in energy:
+        work = rises(-energy["gravity_J"])
+    return work
 
 
 def closure(run):
-    """(time, closure over the energy that has entered) of the ledger."""
+    """(time, closure over the work put in so far) of the ledger."""
     energy = run.table("energy.csv")
-    scale = entered(energy)
+    scale = work_put_in(energy)
     if not scale[-1] > 0:
-        raise Missing("no energy has entered yet (work_J and gravity_J do not change)")
-    # Before a hundredth of the energy has come in, a ratio to it would be noise.
+        raise Missing("no work has been done yet (work_J does not rise)")
+    # Before a hundredth of the work has come in, a ratio to it would be noise.
     return energy["time_s"], energy["closure_J"] / np.maximum(scale, 0.01 * scale[-1])
 
 

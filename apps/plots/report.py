@@ -52,8 +52,7 @@ def headline(run):
         else:
             cards.append((name, number(value * scale, digits), unit, bad(value)))
 
-    cycles = run.try_table("cycles.csv")
-    count = int(cycles["cycle"][-1]) if cycles is not None and "cycle" in cycles else 0
+    count = measures.cycle_count(run)
     card(f"settlement after {count} cycles" if count else "settlement", "mm", measures.settlement, 1e3)
     card("last effective stiffness K_e", "kN/mm", measures.stiffness, 1e-6)
     card("springs back per cycle, mean", "mm", measures.elastic_displacement, 1e3)
@@ -63,7 +62,7 @@ def headline(run):
         import numpy as np
         return float(np.nanmax(np.abs(measures.closure(run)[1])))
 
-    card(f"energy ledger: largest gap, of what entered (tolerance {number(100 * measures.CLOSURE_TOLERANCE)} %)", "%",
+    card(f"energy ledger: largest gap, of the work put in (tolerance {number(100 * measures.CLOSURE_TOLERANCE)} %)", "%",
          worst, 100, lambda value: not value <= measures.CLOSURE_TOLERANCE, 2)
     overlap = _summary_value(run, "overlap")
     if overlap is not None:
@@ -154,9 +153,8 @@ def effects(run):
 
 
 def caution(run):
-    cycles = run.try_table("cycles.csv")
-    count = f"{int(cycles['cycle'][-1])} load cycles are" if cycles is not None and "cycle" in cycles else \
-        "A few load cycles are"
+    cycles = measures.cycle_count(run)
+    count = "One load cycle is" if cycles == 1 else f"{cycles or 'A few'} load cycles are"
     return page.section(
         "What this does not say",
         page.paragraph(f"{count} not a track's life. A main line carries some 10⁵ to 10⁶ axles a year (20 million "

@@ -82,5 +82,6 @@ def duration(seconds):
 
 
 def save(figure, path):
-    figure.savefig(path, facecolor="white", metadata={"Software": None})
+    own = figure.dpi != matplotlib.rcParams["figure.dpi"]   # a rendering keeps its own pixels
+    figure.savefig(path, facecolor="white", metadata={"Software": None}, dpi=figure.dpi if own else DPI)
     plt.close(figure)

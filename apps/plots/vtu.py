@@ -29,7 +29,7 @@ class Grid:
 
     def find(self, *names):
         """Point data under one of these names, whatever the case; None if there is none."""
-        lower = {key.lower(): key for key in self.data}
+        lower = {re.sub(r"_(m|pa|n)$", "", key.lower()): key for key in self.data}   # units may follow the name
         for name in names:
             if name in lower:
                 return self.data[lower[name]]

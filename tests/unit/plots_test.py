@@ -275,12 +275,12 @@ def make_structures(folder):
     down = -4e-4 * np.exp(-far) * depth
     stress = -2.6e5 * np.exp(-far / (1.4 - 0.4 * depth)) * (0.45 + 0.55 * depth)
     zero = np.zeros(len(points))
-    subgrade = dict(displacement=np.stack([zero, zero, down], axis=1), sigma_zz=stress, von_mises=-0.8 * stress)
+    subgrade = dict(displacement_m=np.stack([zero, zero, down], axis=1), stress_zz_Pa=stress, von_mises_Pa=-0.8 * stress)
     s_points, s_cells = block((0.28 * lx, 0.05 * ly, top + 0.008), (0.72 * lx, 0.95 * ly, top + 0.13), (10, 8, 4))
     arm = (s_points[:, 0] - lx / 2) / (0.22 * lx)
     zero = np.zeros(len(s_points))
-    sleeper = dict(displacement=np.stack([zero, zero, -4e-3 - 3e-5 * (1 - arm ** 2)], axis=1),
-                   sigma_zz=-1.5e6 * (1 - arm ** 2), von_mises=2e6 * (1 - arm ** 2))
+    sleeper = dict(displacement_m=np.stack([zero, zero, -4e-3 - 3e-5 * (1 - arm ** 2)], axis=1),
+                   stress_zz_Pa=-1.5e6 * (1 - arm ** 2), von_mises_Pa=2e6 * (1 - arm ** 2))
     for name, (p, c, data) in dict(sleeper=(s_points, s_cells, sleeper), subgrade=(points, cells, subgrade)).items():
         lines = []
         for k, time in enumerate((3.15, 3.2)):
@@ -308,3 +308,335 @@ if __name__ == "__main__" and len(sys.argv) > 2 and sys.argv[1].startswith("--ma
     else:
         make_compare(sys.argv[2])
     sys.exit(0)
+
+
+style.DPI = 50   # what is tested does not depend on it
+
+
+# ---- tests ---------------------------------------------------------------------------------------------------
+
+class Folder(unittest.TestCase):
+    """A small synthetic run, made once; each test works on a copy."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.base = tempfile.mkdtemp(prefix="plots_test_")
+        cls.whole = os.path.join(cls.base, "whole")
+        make_run(cls.whole, grains=36, cycles=6)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.base)
+
+    def copy(self, *without):
+        folder = tempfile.mkdtemp(dir=self.base)
+        for name in os.listdir(self.whole):
+            if name not in without:
+                shutil.copy(os.path.join(self.whole, name), folder)
+        return folder
+
+
+class Numbers(unittest.TestCase):
+    def test_numbers_for_the_eye(self):
+        self.assertEqual(style.number(0.0), "0")
+        self.assertEqual(style.number(-1.234), "−1.23")
+        self.assertEqual(style.number(12345), "12 345")
+        self.assertEqual(style.number(999.7), "1000")
+        self.assertEqual(style.number(2e9), "2.00·10⁹")
+        self.assertEqual(style.number(3e-7, 2), "3.0·10⁻⁷")
+        self.assertEqual(style.number(float("nan")), "–")
+        self.assertEqual(style.duration(3725), "62 min 05 s")
+
+    def test_students_t(self):
+        self.assertAlmostEqual(compare.interval(np.array([1.0, 2.0, 3.0])), 4.303 / np.sqrt(3), 6)
+        self.assertTrue(np.isnan(compare.interval(np.array([1.0]))))
+        self.assertEqual(compare.student(17), compare.STUDENT[15])   # never below the true one
+
+
+class Rendering(unittest.TestCase):
+    def test_nearest_triangle_wins_and_areas_are_exact(self):
+        far = [[0, 0, 5.0], [20, 0, 5.0], [0, 20, 5.0]]
+        near = [[0, 0, 2.0], [10, 0, 2.0], [0, 10, 2.0]]
+        for order in ([far, near], [near, far]):
+            ids, depth = raster.rasterise(np.array(order), 20, 20, cull=False)
+            which = order.index(near)
+            self.assertEqual(ids[1, 1], which)
+            self.assertEqual(depth[1, 1], 2.0)
+            self.assertEqual(ids[12, 2], 1 - which)
+            self.assertEqual(ids[19, 19], -1)
+            self.assertTrue(np.isinf(depth[19, 19]))
+            self.assertAlmostEqual((ids >= 0).sum(), 200, delta=11)
+
+    def test_pictures_do_not_depend_on_the_order_or_size_of_batches(self):
+        rng = np.random.default_rng(3)
+        corners = rng.uniform(0, 60, (300, 3, 3))
+        _, depth = raster.rasterise(corners, 64, 64, cull=False)
+        whole = raster.CHUNK
+        try:
+            raster.CHUNK = 500   # many batches: the hidden ones are skipped by the depth pyramid
+            _, again = raster.rasterise(corners, 64, 64, cull=False)
+        finally:
+            raster.CHUNK = whole
+        np.testing.assert_array_equal(depth, again)
+
+    def test_a_sphere_shows_its_disc_and_only_its_front(self):
+        rng = np.random.default_rng(1)
+        points = rng.normal(size=(60, 3))
+        points /= np.linalg.norm(points, axis=1, keepdims=True)
+        triangles = hull(points)
+        view = raster.View((0, -1, 0), points, width=200)
+        ids, depth = raster.rasterise(view.project(points[triangles]), view.width, view.height)
+        area = np.isfinite(depth).sum() / view.scale ** 2
+        self.assertAlmostEqual(area, np.pi, delta=0.4)
+        outward = raster.Mesh(points[triangles], [1, 1, 1], 0).face
+        self.assertLess((outward[np.unique(ids[ids >= 0])] @ view.away).max(), 0)   # the far half is skipped
+        _, uncut = raster.rasterise(view.project(points[triangles]), view.width, view.height, cull=False)
+        self.assertGreater(np.isclose(depth, uncut).mean(), 0.99)   # and was not seen anyhow
+
+    def test_view_and_place_are_inverse(self):
+        points = np.random.default_rng(2).normal(size=(40, 3))
+        view = raster.View((0.4, -1, 0.5), points, width=300)
+        flat = view.project(points)
+        np.testing.assert_allclose(view.place(*flat.T), points, atol=1e-12)
+
+    def test_light_stays_between_black_and_white(self):
+        points, triangles = shape(np.random.default_rng(5))
+        mesh = raster.Mesh(points[triangles], [0.7, 0.7, 0.7], 0)
+        image, mask = raster.render(mesh, raster.View((0.3, -1, 0.4), points, width=80), directions=6, grain_size=2)
+        self.assertTrue(np.isfinite(image).all())
+        self.assertTrue(0 <= image.min() and image.max() <= 1)
+        inner = image[mask == 1]
+        self.assertGreater(np.ptp(inner.mean(axis=1)), 0.05)   # faces differ
+
+    def test_tubes_are_closed(self):
+        mesh = raster.tubes([[0, 0, 0]], [[0, 0, 2.0]], [0.5], [[1, 0, 0]], sides=64)
+        volume = np.einsum("ij,ij->i", mesh.corners[:, 0], np.cross(mesh.corners[:, 1], mesh.corners[:, 2])).sum() / 6
+        self.assertAlmostEqual(volume, np.pi * 0.25 * 2, delta=0.01)
+
+
+class Grids(Folder):
+    def test_vtu_of_both_kinds(self):
+        for k in (0, 1):   # zlib blocks, then plain base64
+            grid = vtu.read(os.path.join(self.whole, f"structure_subgrade_{k:04d}.vtu"))
+            self.assertEqual(len(grid.points), 15 * 8 * 6)
+            self.assertEqual(len(grid.triangles), 2 * 2 * (14 * 7 + 14 * 5 + 7 * 5))
+            corners = grid.points[grid.triangles]
+            volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+            self.assertAlmostEqual(volume, np.ptp(grid.points, axis=0).prod(), 9)   # all faces look outwards
+            self.assertLess(grid.displacement[:, 2].min(), -1e-4)
+            self.assertIsNotNone(grid.find("sigma_zz", "stress_zz"))
+
+    def test_rigid_motion_is_not_bending(self):
+        grid = vtu.read(os.path.join(self.whole, "structure_sleeper_0000.vtu"))
+        turn = np.cross([1e-4, -2e-4, 3e-4], grid.points)
+        grid.data["displacement_m"] = turn + [1e-3, 2e-3, -3e-3]
+        self.assertLess(np.abs(bed_picture._bending(grid)).max(), 1e-12)
+
+    def test_the_series_follows_the_pvd(self):
+        self.assertEqual([time for time, _ in vtu.series(self.whole, "sleeper")], [3.15, 3.2])
+        self.assertEqual(vtu.names(self.whole), ["sleeper", "subgrade"])
+
+    def test_a_damaged_file_is_named(self):
+        folder = self.copy()
+        for name in os.listdir(folder):
+            if name.endswith(".vtu"):
+                with open(os.path.join(folder, name), "r+") as file:
+                    file.truncate(700)
+        with self.assertRaisesRegex(read_run.Missing, "structure_sleeper_.*cannot be read"):
+            read_run.Run(folder).structure("sleeper")
+
+
+class Reading(Folder):
+    def test_a_line_cut_short_is_left_out(self):
+        folder = self.copy()
+        with open(os.path.join(folder, "cycles.csv"), "a") as file:
+            file.write("7,3.1,3000")
+        self.assertEqual(read_run.Run(folder).table("cycles.csv").rows, 6)
+
+    def test_empty_cells_are_not_numbers(self):
+        history = read_run.Run(self.whole).table("history.csv")
+        self.assertTrue(np.isnan(history["u_m"][0]))
+        self.assertEqual(history["stage"][0], "deposit")
+
+    def test_missing_things_are_named(self):
+        run = read_run.Run(self.copy("cycles.csv"))
+        with self.assertRaisesRegex(read_run.Missing, "cycles.csv is not in the folder"):
+            run.table("cycles.csv")
+        with self.assertRaisesRegex(read_run.Missing, "no column nonsense"):
+            read_run.Run(self.whole).table("history.csv")["nonsense"]
+
+    def test_the_loaded_snapshot_is_taken(self):
+        self.assertEqual(read_run.Run(self.whole).loaded_snapshot().load, 80e3)
+
+    def test_parameters(self):
+        self.assertEqual(read_run.Run(self.whole).parameters, {"Scene/Title": "Ballast box", "Contact/Modulus": "2e9"})
+
+
+class Measures(Folder):
+    def test_loops_are_cut_at_the_load_minima(self):
+        import measures
+        loops = measures.loops(read_run.Run(self.whole))
+        self.assertEqual(len(loops), 6)
+        for load, _ in loops:
+            self.assertLess(max(load[0], load[-1]), 4e3)
+            self.assertGreater(load.max(), 79e3)
+
+    def test_closure_is_of_the_work_put_in(self):
+        import measures
+        table = read_run.Table("energy.csv", dict(time_s=np.arange(4.0), work_J=np.array([0, 10.0, 4.0, 10.0]),
+                                                  closure_J=np.array([0, 0.1, 0.1, -0.32])))
+        np.testing.assert_allclose(measures.work_put_in(table), [0, 10, 10, 16])
+
+    def test_a_tilted_rigid_sleeper_is_not_bent(self):
+        import measures
+        folder = self.copy()
+        x = np.linspace(-1.3, 1.3, 27)
+        write_csv(os.path.join(folder, "moment.csv"), ["x_m", "deflection_m", "moment_Nm"],
+                  zip(x, 2e-3 + 1e-3 * x, 0 * x))
+        self.assertEqual(measures.deflection_range(read_run.Run(folder)), 0.0)
+
+
+class Report(Folder):
+    def page(self, folder, pictures=False):
+        path = report.build(folder, with_pictures=pictures, width=160)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def test_a_whole_run(self):
+        folder = self.copy()
+        text = self.page(folder, pictures=True)
+        self.assertNotIn("is not shown", text)
+        for name in ("bed", "chains", "structures", "settlement", "loops", "stiffness", "gradation", "compaction",
+                     "energy", "timing", "pressure", "moment", "history", "forces"):
+            self.assertTrue(os.path.exists(os.path.join(folder, name + ".png")), name)
+        self.assertIn("not a track's life".replace("'", "&#x27;"), text)
+        self.assertEqual(text.count("<img"), 14)
+        for resource in ("http://", "https://", "src=\"/", "<script", "<link"):
+            self.assertNotIn(resource, text)
+
+    def test_every_file_may_be_missing(self):
+        names = [name for name in os.listdir(self.whole) if name.endswith((".csv", ".h5", ".prm"))]
+        for name in names:
+            with self.subTest(name):
+                run = read_run.Run(self.copy(name))
+                reasons = [report.headline(run), report.effects(run), report.caution(run), run.title]
+                for _, curves in report.CURVES:
+                    for _, _, make in curves:
+                        made, why = report.attempt(make, run)
+                        reasons.append(why or "")
+                        if made:
+                            style.plt.close(made[0])
+                if name not in ("snapshots.h5", "scene.resolved.prm"):
+                    self.assertIn(name, " ".join(reasons))
+                self.assertNotIn("Error", " ".join(reasons))   # reasons are sentences, not exceptions
+
+    def test_an_empty_folder_gives_a_page_of_reasons(self):
+        text = self.page(tempfile.mkdtemp(dir=self.base), pictures=True)
+        self.assertIn("cycles.csv is not in the folder", text)
+        self.assertEqual(text.count("<img"), 0)
+
+    def test_nonsense_never_takes_the_page_with_it(self):
+        folder = self.copy()
+        for name in os.listdir(folder):
+            if name.endswith(".csv"):
+                with open(os.path.join(folder, name)) as file:
+                    header = file.readline()
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write(header + ",".join(["nan"] * len(header.split(","))) + "\n")
+        with open(os.path.join(folder, "snapshots.h5"), "wb") as file:
+            file.write(b"not a file of that kind")
+        self.assertIn("snapshots.h5 cannot be opened", self.page(folder, pictures=True))
+
+    def test_grains_without_surfaces_are_circles(self):
+        folder = self.copy()
+        with h5py.File(os.path.join(folder, "snapshots.h5"), "a") as file:
+            for name in file:
+                if name.startswith("snapshot_"):
+                    del file[name]["points"]
+        text = self.page(folder, pictures=True)
+        self.assertIn("Side view of the grains", text)
+
+    def test_a_rigid_run_draws_its_block(self):
+        folder = self.copy(*[name for name in os.listdir(self.whole) if name.startswith("structure_")])
+        points, cells = block((0.1, 0.05, 0.13), (0.2, 0.1, 0.2), (1, 1, 1))
+        triangles = [t for f in vtu.HEXAHEDRON_FACES for t in ((f[0], f[1], f[2]), (f[0], f[2], f[3]))]
+        with h5py.File(os.path.join(folder, "snapshots.h5"), "a") as file:
+            for name in file:
+                if name.startswith("snapshot_"):
+                    file[name]["rigid_points"] = points.astype(np.float32)
+                    file[name]["rigid_triangles"] = cells[0][np.array(triangles)].astype(np.int32)
+        text = self.page(folder, pictures=True)
+        self.assertIn("no elastic structure was in this scene", text)
+        self.assertTrue(os.path.exists(os.path.join(folder, "chains.png")))
+
+    def test_an_open_ledger_is_marked(self):
+        folder = self.copy()
+        path = os.path.join(folder, "energy.csv")
+        with open(path) as file:
+            rows = list(csv.reader(file))
+        at = rows[0].index("closure_J")
+        for row in rows[1:]:
+            row[at] = str(50 * float(row[at]) + 3)
+        write_csv(path, rows[0], rows[1:])
+        text = self.page(folder)
+        self.assertIn('class="card bad"', text)
+        self.assertIn("OUTSIDE the tolerance", text)
+
+    def test_text_is_escaped(self):
+        folder = self.copy()
+        write_csv(os.path.join(folder, "summary.csv"), ["quantity", "value", "unit", "meaning"],
+                  [("<b>overlap</b>", "a & b", "", "\"x\"")])
+        self.assertIn("&lt;b&gt;overlap&lt;/b&gt;", self.page(folder))
+
+    def test_readme_picture(self):
+        out = os.path.join(self.base, "out.png")
+        picture.build(self.whole, out, width=120)
+        self.assertGreater(os.path.getsize(out), 2000)
+
+
+class Comparison(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="plots_test_")
+        make_compare(cls.folder, grains=24, packings=3)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_page_and_table(self):
+        path = compare.build(self.folder)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        self.assertEqual(text.count("<img"), 5)
+        table = read_run.read_table(os.path.join(self.folder, "compare.csv"))
+        self.assertEqual(list(table.columns)[:7], ["quantity", "unit", "rigid", "elastic", "difference_percent",
+                                                   "floor_percent", "verdict"])
+        k = list(table["quantity"]).index("settlement after the last cycle")
+        self.assertAlmostEqual(table["difference_percent"][k], 100 * (1 / 1.12 - 1), 6)
+        self.assertEqual(table["packings"][k], 3)
+        self.assertIn("smaller by 11 %", table["verdict"][k])
+        k = list(table["quantity"]).index("largest bending moment of the sleeper")
+        self.assertIn("moment.csv is not in the folder", table["verdict"][k])
+
+    def row(self, difference, floor=np.nan, ci=np.nan, packings=1):
+        row = compare.Row("q", "m", 1, "m")
+        row.difference, row.floor, row.difference_ci, row.packings = difference, floor, ci, packings
+        return compare.verdict(row)
+
+    def test_verdicts(self):
+        self.assertEqual(self.row(2.0, floor=3.0), "none (below the noise floor of 3 %)")
+        self.assertEqual(self.row(5.0, floor=3.0), "elastic larger by 5 %, of this one packing")
+        self.assertEqual(self.row(-5.0, 3.0, 7.0, 4), "none (lost in the scatter of 4 packings, ±7 %)")
+        self.assertEqual(self.row(-9.0, 3.0, 7.0, 4), "elastic smaller by 9 %")
+        self.assertIn("not judged", self.row(9.0))
+
+    def test_half_a_comparison(self):
+        folder = tempfile.mkdtemp(dir=self.folder)
+        shutil.copytree(os.path.join(self.folder, "rigid"), os.path.join(folder, "rigid"))
+        with open(compare.build(folder), encoding="utf-8") as file:
+            self.assertIn("elastic: the run is not in the folder", file.read())
+
+
+if __name__ == "__main__":
+    unittest.main()
