@@ -13,10 +13,6 @@
 //   g(u'): any v' orthogonal to u' lies within t of some v orthogonal to u. Between two silhouette
 //   edges one difference d is active and its bound rises with d.v, so the least bound is found at
 //   the silhouette edges, with the longest of the differences active there.
-#if defined(__GNUC__) && !defined(__clang__)  // a false alarm from the vector headers of GCC 12
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,12 +51,18 @@ struct Bounds {
 
 class Search {
  public:
-  explicit Search(const Polyhedron& body) : body_(body), n_(int(body.vertices.size())), dot_(n_) {
+  explicit Search(const Polyhedron& body) : dot_(body.vertices.size()) {
     Vec3 middle = Vec3::Zero();
-    for (const Vec3& p : body.vertices) middle += p / double(n_);
-    x_.resize(n_, 3);
-    for (int i = 0; i < n_; ++i) x_.row(i) = body.vertices[i] - middle;
-    for (const Vec3& a : face_areas(body)) normals_.push_back(a);
+    for (const Vec3& p : body.vertices) middle += p / double(body.vertices.size());
+    for (const Vec3& p : body.vertices) {
+      corners_.push_back(p - middle);
+      x_.push_back(corners_.back().x());
+      y_.push_back(corners_.back().y());
+      z_.push_back(corners_.back().z());
+    }
+    for (const Vec3& p : corners_)
+      for (const Vec3& q : corners_) diameter2_ = std::max(diameter2_, (p - q).squaredNorm());
+    normals_ = face_areas(body);
     std::map<std::pair<int, int>, int> owner;
     for (int f = 0; f < int(body.faces.size()); ++f) {
       const auto& face = body.faces[f];
@@ -69,13 +71,10 @@ class Search {
     for (const auto& [edge, f] : owner) {
       const auto other = owner.find({edge.second, edge.first});
       if (other == owner.end()) throw InputError("sieve size: the surface is not closed");
-      if (edge.first < edge.second)
-        edges_.push_back(
-            {f, other->second, body.vertices[edge.second] - body.vertices[edge.first]});
+      if (edge.first > edge.second) continue;
+      const Vec3 e = corners_[edge.second] - corners_[edge.first];
+      edges_.push_back({f, other->second, e, e.norm()});
     }
-    for (int i = 0; i < n_; ++i)
-      diameter2_ =
-          std::max(diameter2_, (x_.rowwise() - x_.row(i)).rowwise().squaredNorm().maxCoeff());
     side_.resize(normals_.size());
     best_.size = std::numeric_limits<double>::infinity();
   }
@@ -86,6 +85,7 @@ class Search {
   struct Edge {
     int left, right;  // faces
     Vec3 e;
+    double length;
   };
 
   static Vec3 direction(int face, double a, double b) {
@@ -94,41 +94,62 @@ class Search {
     return u.normalized();
   }
 
-  // Width along d and the longest difference of vertices among those that attain it.
-  double width(const Vec3& d, double& longest2) {
-    dot_.noalias() = x_ * d;
-    const double high = dot_.maxCoeff(), low = dot_.minCoeff();
-    const double tie = 1e-9 * (high - low) + 1e-14 * std::sqrt(diameter2_);
-    top_.clear(), bottom_.clear();
-    for (int i = 0; i < n_; ++i) {
-      if (dot_[i] >= high - tie) top_.push_back(i);
-      if (dot_[i] <= low + tie) bottom_.push_back(i);
+  // Width along d; leaves the corners' coordinates along d in dot_.
+  double width(const Vec3& d) {
+    double high = -std::numeric_limits<double>::infinity(), low = -high;
+    const int n = int(dot_.size());
+    const double dx = d.x(), dy = d.y(), dz = d.z();
+#pragma omp simd reduction(max : high) reduction(min : low)
+    for (int i = 0; i < n; ++i) {
+      const double t = x_[i] * dx + y_[i] * dy + z_[i] * dz;
+      dot_[i] = t;
+      high = std::max(high, t);
+      low = std::min(low, t);
     }
-    longest2 = 0;
-    for (int i : top_)
-      for (int j : bottom_) longest2 = std::max(longest2, (x_.row(i) - x_.row(j)).squaredNorm());
+    high_ = high, low_ = low;
     return high - low;
+  }
+
+  // After width(): squared length of the longest difference of corners that attains it.
+  double longest_active2() {
+    const double tie = 1e-9 * (high_ - low_) + 1e-14 * std::sqrt(diameter2_);
+    top_.clear(), bottom_.clear();
+    for (int i = 0; i < int(dot_.size()); ++i) {
+      if (dot_[i] >= high_ - tie) top_.push_back(i);
+      if (dot_[i] <= low_ + tie) bottom_.push_back(i);
+    }
+    double longest2 = 0;
+    for (int i : top_)
+      for (int j : bottom_)
+        longest2 = std::max(longest2, (corners_[i] - corners_[j]).squaredNorm());
+    return longest2;
   }
 
   Bounds evaluate(const Vec3& u, double c, double s) {
     Bounds r;
-    double longest2 = 0;
-    r.w = width(u, longest2);
-    r.w_low = lowest(r.w, longest2, c, s);
+    r.w = width(u);
+    r.w_low = lowest(r.w, longest_active2(), c, s);
     r.w_high = highest(r.w, diameter2_, c, s);
+    r.g = r.g_low = std::numeric_limits<double>::infinity();
     ++best_.evaluations;
     if (r.w_low >= best_.size) return r;  // w alone rules it out
-    r.g = r.g_low = std::numeric_limits<double>::infinity();
     for (size_t f = 0; f < normals_.size(); ++f) side_[f] = normals_[f].dot(u);
-    for (const Edge& edge : edges_) {
+    for (size_t k = 0; k < edges_.size(); ++k) {
+      const Edge& edge = edges_[k];
       if ((side_[edge.left] > 0) == (side_[edge.right] > 0)) continue;
       Vec3 v = edge.e.cross(u);
       const double length = v.norm();
-      if (length <= 1e-12 * edge.e.norm()) continue;  // along u: a corner of the shadow, no side
+      if (length <= 1e-12 * edge.length) continue;  // along u: a corner of the shadow, no side
       v /= length;
-      const double wv = width(v, longest2);
+      const double wv = width(v);
       if (wv < r.g) r.g = wv, r.v = v;
-      r.g_low = std::min(r.g_low, lowest(wv, longest2, c, s));
+      if (lowest(wv, diameter2_, c, s) < r.g_low)  // else the tighter bound is not the least either
+        r.g_low = std::min(r.g_low, lowest(wv, longest_active2(), c, s));
+      // The cap can neither be pruned nor left to the exchanged pair: the rest does not matter.
+      if (r.g_low < best_.size && r.g_low <= r.w_high && r.g <= r.w) {
+        std::swap(edges_[k], edges_[k / 2]);  // likely to decide the next one, too
+        break;
+      }
     }
     const double value = std::max(r.w, r.g);
     if (value < best_.size) best_.size = value, best_.u = u, best_.v = r.v;
@@ -159,10 +180,9 @@ class Search {
     return b.w >= best_.size ? b.w : std::max(b.w, b.g);
   }
 
-  const Polyhedron& body_;
-  int n_;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> x_;
-  Eigen::VectorXd dot_;
+  std::vector<Vec3> corners_;            // about their mean
+  std::vector<double> x_, y_, z_, dot_;  // the same, for the inner loop
+  double high_ = 0, low_ = 0;
   std::vector<Vec3> normals_;
   std::vector<double> side_;
   std::vector<Edge> edges_;
