@@ -61,20 +61,12 @@ void add_grains(World& w, const std::vector<dem::GrainShape>& shapes,
   const int before = w.bodies.size(), grains = w.bodies.grains;
   for (std::size_t i = 0; i < shapes.size(); ++i)
     dem::add_body(w.bodies, w.shapes.add(shapes[i]), material, density * shapes[i].volume,
-                  density * shapes[i].inertia, centre[i], turn[i], dem::kFree);
+                  density * shapes[i].inertia, centre[i], turn[i],
+                  dem::kFree);  // behind all others
   std::vector<int> order(w.bodies.size());
   std::iota(order.begin(), order.end(), 0);
   std::rotate(order.begin() + grains, order.begin() + before, order.end());
   reorder(w, order, grains + static_cast<int>(shapes.size()));
-}
-
-int add_rigid_body(World& w, const RigidBody& body) {
-  const dem::GrainShape shape = dem::make_grain_shape(body.shape);
-  const int i = dem::add_body(w.bodies, w.shapes.add(shape), body.material,
-                              body.density * shape.volume, body.density * shape.inertia,
-                              body.place + shape.origin, shape.turn, body.freedom);
-  w.pairs.index_bodies(w.bodies.size());
-  return i;
 }
 
 void remove_bodies(World& w, const std::vector<int>& bodies) {

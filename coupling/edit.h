@@ -16,18 +16,7 @@ void reorder(World&, const std::vector<int>& order, int grains);
 void add_grains(World&, const std::vector<dem::GrainShape>&, const std::vector<dem::Vec3>& centre,
                 const std::vector<dem::Quat>& turn, double density, int material);
 
-/// A rigid convex body: the pose is that of the frame its polyhedron is given in.
-struct RigidBody {
-  dem::Polyhedron shape;
-  dem::Vec3 place = dem::Vec3::Zero();
-  double density = 0;  ///< [kg/m3]
-  int material = 0;
-  std::uint8_t freedom = dem::kFixed;
-};
-/// Returns its index, which holds until the next change.
-int add_rigid_body(World&, const RigidBody&);
-
-/// Removes the rigid bodies whose index is in `bodies`.
+/// Removes the bodies whose index is in `bodies`.
 void remove_bodies(World&, const std::vector<int>& bodies);
 
 }  // namespace trackbed::coupling

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "coupling/world.h"
+#include "dem/motion/energy.h"
 
 namespace trackbed::coupling {
 namespace {
@@ -71,9 +72,8 @@ void contact_forces(World& w, const dem::StepContext& c) {
   }
 }
 
-double friction_loss(const World& w) {
-  double sum = 0;
-  for (const double loss : w.pairs.friction_loss) sum += loss;
+double friction_loss(const World& w, int threads) {
+  double sum = dem::friction_loss(w.pairs, threads);
   for (const Surface& s : w.surfaces)
     for (const double loss : s.contacts.friction_loss) sum += loss;
   return sum;
@@ -114,7 +114,7 @@ void advance(World& w, const dem::StepContext& c, const Drive& drive) {
   w.flows.work += work.applied;
   w.flows.prescribed += work.prescribed;
   w.flows.local_damping += work.local_damping;
-  w.flows.friction += friction_loss(w);
+  w.flows.friction += friction_loss(w, c.threads);
   ++w.times.steps;
 }
 

@@ -1,5 +1,7 @@
 #include "coupling/world.h"
 
+#include "dem/motion/energy.h"
+
 namespace trackbed::coupling {
 
 using dem::Vec3;
@@ -23,14 +25,8 @@ Surface make_surface(const std::string& name, int material, double shell_depth, 
 
 EnergyStores stores(const World& w, const Vec3& gravity) {
   EnergyStores e;
-  const dem::Bodies& b = w.bodies;
-  for (int i = 0; i < b.size(); ++i) {
-    if (b.freedom[i] == dem::kFixed) continue;
-    e.kinetic += 0.5 * b.mass[i] * b.v[i].squaredNorm() + 0.5 * b.L[i].dot(b.omega[i]);
-    e.gravity -= b.mass[i] * gravity.dot(b.x[i]);
-  }
-  for (int p = 0; p < w.pairs.size(); ++p)
-    e.contact += w.pairs.energy[p] + w.pairs.friction_energy[p];
+  const dem::Energies d = dem::energies(w.bodies, w.pairs, gravity);
+  e.kinetic = d.kinetic, e.gravity = d.gravity, e.contact = d.normal + d.tangential;
   for (const Surface& s : w.surfaces) {
     for (int k = 0; k < s.contacts.size(); ++k)
       e.contact += s.contacts.energy[k] + s.contacts.friction_energy[k];

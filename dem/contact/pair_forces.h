@@ -45,7 +45,7 @@ struct PairForces {
   Evaluate evaluate = nullptr;
 };
 
-/// Laws: "stored energy", "Shao 2017". `friction` off leaves the tangential part out altogether.
+/// Laws: "stored_energy", "shao2017". `friction` off leaves the tangential part out altogether.
 /// Throws InputError naming the laws there are.
 PairForces make_pair_forces(const std::string& law, bool friction);
 std::vector<std::string> pair_law_names();

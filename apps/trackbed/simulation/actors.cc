@@ -16,7 +16,7 @@ namespace {
 using dem::Vec3;
 
 constexpr double kClearance = 1e-4;  // between things put in and what is there [m]
-constexpr double kWall = 0.25;       // thickness of walls, more than the largest grain [m]
+constexpr double kThickness = 0.25;  // thickness of walls, more than the largest grain [m]
 constexpr double kTop = 5;           // of the walls, higher than any loose heap [m]
 constexpr double kPlateGap = 5e-3;   // between plate and walls [m]
 
@@ -60,8 +60,8 @@ void pour_grains(Run& run, const std::vector<dem::GrainShape>& grains, bool besi
   dem::PlacedSpheres present;
   if (beside) {
     const Layout& l = run.layout;
-    space.blocks.push_back({{l.sleeper_low_x, l.sleeper_low_y, 0},
-                            {l.sleeper_high_x, l.sleeper_high_y, 0}});
+    space.blocks.push_back(
+        {{l.sleeper_low_x, l.sleeper_low_y, 0}, {l.sleeper_high_x, l.sleeper_high_y, 0}});
     for (int i = 0; i < w.bodies.grains; ++i) {
       present.centre.push_back(w.bodies.x[i]);
       present.radius.push_back(w.shapes.shape(w.bodies.shape[i]).radius);
@@ -79,16 +79,16 @@ void add_walls(Run& run) {
   const Layout& l = run.layout;
   dem::Bodies& b = run.world.bodies;
   dem::ShapeTable& shapes = run.world.shapes;
-  const Vec3 low = l.low - Vec3(0, 0, kWall), high(l.high.x(), l.high.y(), kTop);
+  const Vec3 low = l.low - Vec3(0, 0, kThickness), high(l.high.x(), l.high.y(), kTop);
   const int before = b.size();
   // Walls reach below the floor and the floor beyond the walls, so that edges are closed.
   const auto side = [&](unsigned which, int material) {
-    dem::add_container(b, shapes, low, high, kWall, material, which);
+    dem::add_container(b, shapes, low, high, kThickness, material, which);
   };
   side(dem::kLowX, c.half ? kMirror : kWall);
   side(dem::kHighX, kWall);
   if (!c.periodic) side(dem::kLowY | dem::kHighY, kWall);
-  dem::add_container(b, shapes, l.low, high, kWall, kSubgrade, dem::kBase);
+  dem::add_container(b, shapes, l.low, high, kThickness, kSubgrade, dem::kBase);
   run.actors.walls = b.size() - before;
   run.actors.floor = true;
 }
@@ -156,9 +156,9 @@ void build_structures(Run& run) {
   }
   if (run.scene.subgrade.model != "rigid") {
     run.actors.subgrade_surface = static_cast<int>(w.surfaces.size());
-    w.surfaces.push_back(coupling::make_surface(
-        "subgrade", kSubgrade, depth, largest_sieve(w.shapes), run.layout.period,
-        make_elastic_subgrade(run.scene, run.layout)));
+    w.surfaces.push_back(coupling::make_surface("subgrade", kSubgrade, depth,
+                                                largest_sieve(w.shapes), run.layout.period,
+                                                make_elastic_subgrade(run.scene, run.layout)));
   }
 }
 
@@ -172,7 +172,8 @@ void place_structures(Run& run) {
   if (run.actors.sleeper_surface >= 0)
     remove_moving_body(run);
   else if (run.scene.container.half)
-    w.bodies.freedom[sleeper] = dem::kMoveZ | (run.scene.sleeper.vertical_only ? 0 : dem::kMoveY | dem::kTurnX);
+    w.bodies.freedom[sleeper] =
+        dem::kMoveZ | (run.scene.sleeper.vertical_only ? 0 : dem::kMoveY | dem::kTurnX);
   else if (!run.scene.sleeper.vertical_only)
     w.bodies.freedom[sleeper] = dem::kFree;
   if (run.actors.subgrade_surface >= 0) {
@@ -187,8 +188,7 @@ void apply_load(Run& run, double newton) {
   coupling::World& w = run.world;
   if (run.actors.sleeper_surface >= 0) {
     fem::Structure& s = *w.surfaces[run.actors.sleeper_surface].structure;
-    for (int k = 0; k < s.loads(); ++k)
-      s.set_load(k, run.layout.share * newton / s.loads());
+    for (int k = 0; k < s.loads(); ++k) s.set_load(k, run.layout.share * newton / s.loads());
   } else if (run.actors.plate || run.actors.rigid_sleeper) {
     w.bodies.applied_force[moving_body(run)] = Vec3(0, 0, -run.layout.share * newton);
   }

@@ -33,7 +33,8 @@ std::vector<dem::GrainShape> draw_grains(const Scene& s,
   const dem::GradationDraw draw = dem::draw_gradation(gradation_curve(s), library, p);
   std::vector<dem::GrainShape> grains;
   grains.reserve(draw.grains.size());
-  for (const dem::DrawnGrain& g : draw.grains) grains.push_back(dem::scaled(library[g.shape], g.scale));
+  for (const dem::DrawnGrain& g : draw.grains)
+    grains.push_back(dem::scaled(library[g.shape], g.scale));
   return grains;
 }
 

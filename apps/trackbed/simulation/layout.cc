@@ -32,8 +32,8 @@ Layout make_layout(const Scene& s) {
     below += 2 * half_width(s, c.depth, z * c.depth) * c.depth / slices;
     beside += 2 * half_width(s, c.depth, c.depth + z * c.fill_height) * c.fill_height / slices;
   }
-  const double sleeper = s.sleeper.length * s.sleeper.width *
-                         std::min(c.fill_height, s.sleeper.height);
+  const double sleeper =
+      s.sleeper.length * s.sleeper.width * std::min(c.fill_height, s.sleeper.height);
   l.bed_mass = s.packing.bulk_density * below * c.width * l.share;
   l.fill_mass = s.packing.bulk_density * std::max(0.0, beside * c.width - sleeper) * l.share;
   return l;

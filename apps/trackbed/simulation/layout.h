@@ -6,12 +6,12 @@
 namespace trackbed::apps {
 
 struct Layout {
-  dem::Vec3 low, high;      ///< inner box of the container, x and y [m]; z from 0 to a high lid
-  dem::Vec3 period;         ///< [m], 0 where there are walls
-  double share;             ///< of the sleeper and its load that is simulated: 1, or 0.5 by symmetry
+  dem::Vec3 low, high;  ///< inner box of the container, x and y [m]; z from 0 to a high lid
+  dem::Vec3 period;     ///< [m], 0 where there are walls
+  double share;         ///< of the sleeper and its load that is simulated: 1, or 0.5 by symmetry
   double sleeper_low_x, sleeper_high_x, sleeper_low_y, sleeper_high_y;  ///< footprint [m]
-  double bed_mass;          ///< of grains poured under the sleeper [kg]
-  double fill_mass;         ///< of grains poured beside it [kg]
+  double bed_mass;   ///< of grains poured under the sleeper [kg]
+  double fill_mass;  ///< of grains poured beside it [kg]
 };
 
 Layout make_layout(const Scene&);

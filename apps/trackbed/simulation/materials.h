@@ -11,8 +11,9 @@ enum Material { kGrain, kWall, kMirror, kPlate, kSleeper, kSubgrade, kMaterials 
 /// A mirror wall (symmetry) has none.
 inline dem::PairMaterials make_materials(const Scene& s, double modulus, double grain_friction) {
   dem::PairMaterials table(kMaterials);
-  const double friction[kMaterials] = {grain_friction,     s.container.friction, 0,
-                                       s.container.friction, s.sleeper.friction, s.subgrade.friction};
+  const double friction[kMaterials] = {
+      grain_friction,       s.container.friction, 0,
+      s.container.friction, s.sleeper.friction,   s.subgrade.friction};
   for (int i = 0; i < kMaterials; ++i)
     for (int j = i; j < kMaterials; ++j)
       table.set(i, j, {modulus, i == kMirror ? 0 : friction[j], s.contact.tangential_ratio});

@@ -17,26 +17,30 @@ struct Actors {
   int walls = 0;  ///< fixed boxes; the last one is the floor while `floor` is set
   bool floor = false, plate = false, rigid_sleeper = false;
   int sleeper_surface = -1, subgrade_surface = -1;  ///< into World::surfaces, -1 = rigid
-  double sleeper_base = 0;  ///< height of the sleeper's base when it was put in [m]
+  double sleeper_base = 0;   ///< height of the sleeper's base when it was put in [m]
   double sleeper_start = 0;  ///< height of the rigid sleeper's centre then [m]
 };
 
 /// Where the run stands; part of every checkpoint.
 struct StageState {
-  int index = 0;        ///< of the stage under way
-  int steps = 0;        ///< done in this stage
-  int cycles = 0;       ///< whole load cycles done in this stage
-  int halvings = 0;     ///< of the time step in this stage
+  int index = 0;     ///< of the stage under way
+  int steps = 0;     ///< done in this stage
+  int cycles = 0;    ///< whole load cycles done in this stage
+  int halvings = 0;  ///< of the time step in this stage
   int steps_per_cycle = 0;
-  double dt = 0;        ///< [s]
-  double start = 0;     ///< time at its start [s]
-  double load = 0;      ///< on plate or sleeper now [N]
-  double u0 = 0;        ///< sleeper displacement that counts as zero [m]
+  double dt = 0;     ///< [s]
+  double start = 0;  ///< time at its start [s]
+  double load = 0;   ///< on plate or sleeper now [N]
+  double u0 = 0;     ///< sleeper displacement that counts as zero [m]
   double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
-  double largest_overlap = 0;     ///< depth over grain size, so far in the run
-  double largest_step_share = 0;  ///< time step over the measured limit, so far in the run
-  double worst_closure = 0;       ///< |ledger closure| over work turned over, of the loading
+  double largest_overlap = 0;       ///< depth over grain size, so far in the run
+  double largest_step_share = 0;    ///< time step over the measured limit, so far in the run
+  double work_in = 0;               ///< sum of the rises of the ledger's work [J]
+  double last_work = 0;             ///< its last value [J]
+  double worst_closure = 0;         ///< largest |closure| since the ledger was opened [J]
   std::vector<double> grain_force;  ///< largest contact force per grain [N]
+  std::vector<double> pressure;     ///< under the sleeper, sum over load peaks, by cell [Pa]
+  int pressure_samples = 0;
 };
 
 struct Run {
@@ -46,6 +50,7 @@ struct Run {
   coupling::World world;
   Actors actors;
   StageState stage;
+  std::vector<dem::GrainShape> library;  ///< made when first needed
 };
 
 struct Stage {
@@ -57,8 +62,8 @@ struct Stage {
   double longest = 0;   ///< [s]
   double period = 0;    ///< of the load [s]; 0 = no cycles
   bool until_quiet = false;
-  bool ledger = false;  ///< opens the energy ledger at its start
-  std::function<void(Run&)> enter;               ///< changes bodies and surfaces
+  bool ledger = false;                             ///< opens the energy ledger at its start
+  std::function<void(Run&)> enter;                 ///< changes bodies and surfaces
   std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
   std::function<bool(Run&)> after_cycle;           ///< true: the stage is over
 };

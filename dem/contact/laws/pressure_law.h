@@ -1,6 +1,7 @@
 // What a normal contact law returns: its stored energy and the pressure it puts on the overlap's
 // boundary. All laws are pressure laws, p(x) = p0 + (x-c)^T Q (x-c), so that grain on grain and
 // grain on deforming surface share one integration: force on a = -int p n dA over a's pieces.
+// A law whose force has a given direction lets the pressure act on projected areas only.
 #pragma once
 #include "dem/contact/overlap.h"
 
@@ -23,10 +24,12 @@ struct OverlapShape {
 };
 
 struct NormalResponse {
-  double energy = 0;       ///< U [J]; 0 for laws without a stored energy
-  double p0 = 0;           ///< [Pa]
-  Mat3 Q = Mat3::Zero();   ///< [Pa/m2]
-  double stiffness = 0;    ///< estimate of dF/d(depth) [N/m], for the time step
+  double energy = 0;      ///< U [J]; 0 for laws without a stored energy
+  double p0 = 0;          ///< [Pa]
+  Mat3 Q = Mat3::Zero();  ///< [Pa/m2]
+  /// Components of n dA that the pressure acts on, frame axes: all, or (0,0,1), along the normal.
+  Vec3 acts_on = Vec3::Ones();
+  double stiffness = 0;  ///< estimate of dF/d(depth) [N/m], for the time step
 };
 
 }  // namespace trackbed::dem

@@ -63,7 +63,7 @@ NormalResponse stored_energy_response(const OverlapShape& s, double modulus) {
 }
 
 struct StoredEnergyLaw {
-  static constexpr const char* name = "stored energy";
+  static constexpr const char* name = "stored_energy";
   static constexpr bool stores_energy = true;
   NormalResponse operator()(const OverlapShape& s, const PairMaterial& m) const {
     return stored_energy_response<2>(s, m.modulus);

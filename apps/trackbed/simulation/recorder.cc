@@ -1,0 +1,101 @@
+#include "apps/trackbed/simulation/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/trackbed/files.h"
+
+namespace trackbed::apps {
+namespace {
+
+const std::vector<std::string> kHistory{"time_s",    "stage",    "load_N",      "u_m",
+                                        "kinetic_J", "contacts", "coordination"};
+const std::vector<std::string> kEnergy{"time_s",
+                                       "kinetic_J",
+                                       "gravity_J",
+                                       "contact_J",
+                                       "structure_J",
+                                       "work_J",
+                                       "dissipated_friction_J",
+                                       "dissipated_local_damping_J",
+                                       "dissipated_structure_damping_J",
+                                       "dissipated_structure_integration_J",
+                                       "transfer_error_J",
+                                       "closure_J"};
+const std::vector<std::string> kCycles{"cycle",
+                                       "time_s",
+                                       "load_min_N",
+                                       "load_max_N",
+                                       "u_min_m",
+                                       "u_max_m",
+                                       "settlement_m",
+                                       "stiffness_loading_N_per_m",
+                                       "stiffness_unloading_N_per_m"};
+const std::vector<std::string> kCompaction{"cycle",    "time_s",    "height_m", "density_kg_per_m3",
+                                           "porosity", "void_ratio"};
+
+CsvWriter open(const std::string& folder, const char* name, const std::vector<std::string>& columns,
+               const std::vector<int>& rows, int k) {
+  const std::string file = folder + "/" + name;
+  const int count = rows.empty() ? Recorder::kNew : rows.at(k);
+  if (count == Recorder::kNew) return CsvWriter(file, columns);
+  if (count != Recorder::kKeepAll) return CsvWriter::resume(file, columns, count);
+  const std::string text = read_text(file);
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  return CsvWriter::resume(file, columns, lines - 1);
+}
+
+// ΔF/Δu; empty where nothing moved.
+CsvCell stiffness(double force, double displacement) {
+  return displacement != 0 ? CsvCell(force / displacement) : CsvCell();
+}
+
+}  // namespace
+
+Recorder::Recorder(const std::string& folder) : Recorder(folder, {}) {}
+
+Recorder::Recorder(const std::string& folder, const std::vector<int>& rows)
+    : history_(open(folder, "history.csv", kHistory, rows, 0)),
+      energy_(open(folder, "energy.csv", kEnergy, rows, 1)),
+      cycles_(open(folder, "cycles.csv", kCycles, rows, 2)),
+      compaction_(open(folder, "compaction.csv", kCompaction, rows, 3)) {}
+
+void Recorder::sample(Run& run, const Stage& stage) {
+  const dem::Vec3 gravity = step_context(run, stage).gravity;
+  const coupling::EnergyStores now = coupling::stores(run.world, gravity);
+  const bool sleeper = run.actors.rigid_sleeper || run.actors.sleeper_surface >= 0;
+  const CsvCell u = sleeper ? CsvCell(sleeper_displacement(run) - run.stage.u0) : CsvCell();
+  history_.row({run.world.time, stage.name, run.stage.load, u, now.kinetic,
+                coupling::count_contacts(run.world), coupling::coordination(run.world)});
+  if (!stage.ledger) return;
+  const coupling::EnergyFlows f = coupling::flows(run.world);
+  const double open = coupling::closure(run.world.start, now, f);
+  energy_.row({run.world.time, now.kinetic, now.gravity, now.contact, now.structure,
+               f.work + f.prescribed, f.friction, f.local_damping, f.structure_damping,
+               f.structure_numerical, f.transfer_error, open});
+  run.stage.work_in += std::max(0.0, f.work - run.stage.last_work);
+  run.stage.last_work = f.work;
+  run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));
+}
+
+void Recorder::cycle(const Run& run, const Stage&, double load_start, double u_start) {
+  const StageState& s = run.stage;
+  cycles_.row({s.cycles, run.world.time, s.load_min, s.load_max, s.u_min, s.u_max, s.u_min,
+               stiffness(s.load_max - load_start, s.u_max - u_start),
+               stiffness(s.load_max - s.load_min, s.u_max - s.u_min)});
+}
+
+void Recorder::compaction(const Run& run) {
+  const double density = bed_density(run), porosity = 1 - density / run.scene.grains.density;
+  compaction_.row({run.stage.cycles, run.world.time, bed_height(run), density, porosity,
+                   porosity / (1 - porosity)});
+}
+
+std::vector<int> Recorder::rows() const {
+  return {static_cast<int>(history_.rows()), static_cast<int>(energy_.rows()),
+          static_cast<int>(cycles_.rows()), static_cast<int>(compaction_.rows())};
+}
+
+void Recorder::flush() { history_.flush(), energy_.flush(), cycles_.flush(), compaction_.flush(); }
+
+}  // namespace trackbed::apps

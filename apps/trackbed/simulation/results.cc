@@ -1,0 +1,104 @@
+#include "apps/trackbed/simulation/results.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "apps/trackbed/csv.h"
+#include "apps/trackbed/simulation/bearing.h"
+#include "apps/trackbed/simulation/grains.h"
+
+namespace trackbed::apps {
+namespace {
+
+void write_gradation(const Run& run, const std::string& file) {
+  const dem::SieveCurve curve = gradation_curve(run.scene);
+  std::vector<double> sizes, volumes;
+  for (int i = 0; i < run.world.bodies.grains; ++i) {
+    const dem::GrainShape& g = run.world.shapes.shape(run.world.bodies.shape[i]);
+    sizes.push_back(g.sieve_size), volumes.push_back(g.volume);
+  }
+  const std::vector<double> achieved = dem::passing_percent(sizes, volumes, curve.sieve);
+  CsvWriter csv(file, {"sieve_m", "target_percent", "achieved_percent", "band_min_percent",
+                       "band_max_percent"});
+  for (std::size_t k = 0; k < curve.sieve.size(); ++k) {
+    const bool band = !curve.band_min.empty();
+    csv.row({curve.sieve[k], curve.passing[k], achieved[k],
+             band ? CsvCell(curve.band_min[k]) : CsvCell(),
+             band ? CsvCell(curve.band_max[k]) : CsvCell()});
+  }
+  csv.flush();
+}
+
+void write_grains(const Run& run, const std::string& file) {
+  const dem::Bodies& b = run.world.bodies;
+  CsvWriter csv(file, {"grain", "shape", "sieve_m", "volume_m3", "mass_kg", "largest_force_N"});
+  for (int i = 0; i < b.grains; ++i) {
+    const dem::GrainShape& g = run.world.shapes.shape(b.shape[i]);
+    const bool kept = i < static_cast<int>(run.stage.grain_force.size());
+    csv.row(
+        {i, b.shape[i], g.sieve_size, g.volume, b.mass[i], kept ? run.stage.grain_force[i] : 0.0});
+  }
+  csv.flush();
+}
+
+void write_timing(const Run& run, const std::string& file, double wall) {
+  const coupling::StepTimes& t = run.world.times;
+  const std::vector<std::pair<const char*, double>> parts{{"grain contacts", t.grain_contacts},
+                                                          {"surface contacts", t.surface_contacts},
+                                                          {"structures", t.structures},
+                                                          {"candidates", t.candidates},
+                                                          {"motion", t.motion}};
+  double known = 0;
+  for (const auto& p : parts) known += p.second;
+  CsvWriter csv(file, {"stage", "calls", "seconds", "share"});
+  const double total = std::max(wall, known);
+  for (const auto& [name, seconds] : parts) csv.row({name, t.steps, seconds, seconds / total});
+  csv.row({"set-up, monitors, output", 1, total - known, (total - known) / total});
+  csv.flush();
+}
+
+void write_summary(const Run& run, const std::string& file, double wall) {
+  const coupling::World& w = run.world;
+  const StageState& s = run.stage;
+  CsvWriter csv(file, {"quantity", "value", "unit", "meaning"});
+  const auto row = [&](const char* quantity, const CsvCell& value, const char* unit,
+                       const char* meaning) {
+    csv.row({quantity, value, unit, meaning});
+  };
+  const double mass =
+      std::accumulate(w.bodies.mass.begin(), w.bodies.mass.begin() + w.bodies.grains, 0.0);
+  row("grains", w.bodies.grains, "-", "grains in the bed");
+  row("grain mass", mass, "kg", "of all grains");
+  row("contacts", coupling::count_contacts(w), "-", "touching at the end");
+  row("coordination", coupling::coordination(w), "-", "mean contacts per grain at the end");
+  row("contact modulus", run.scene.contact.modulus, "Pa", "softer than rock: larger overlaps");
+  row("largest overlap", s.largest_overlap, "-", "depth over the smaller grain's size");
+  row("time step share", s.largest_step_share, "-", "largest, of the measured stability limit");
+  row("closure", s.work_in > 0 ? CsvCell(s.worst_closure / s.work_in) : CsvCell(), "-",
+      "largest energy not accounted for, over the work put in while loading");
+  row("closure tolerance", run.scene.numerics.closure, "-", "stated in the scene");
+  for (const coupling::Surface& surface : w.surfaces)
+    csv.row({"unknowns of the " + surface.patch.name, surface.structure->unknowns(), "-",
+             "finite element degrees of freedom"});
+  row("steps", w.times.steps, "-", "time steps done");
+  row("time step", w.times.steps ? CsvCell(w.time / static_cast<double>(w.step)) : CsvCell(), "s",
+      "mean over the run");
+  row("wall time", wall, "s", "of this run");
+  row("threads", run.threads, "-", "used for the grains");
+  csv.flush();
+}
+
+}  // namespace
+
+void write_results(const Run& run, const std::string& folder, double wall) {
+  write_gradation(run, folder + "/gradation.csv");
+  write_grains(run, folder + "/grains.csv");
+  write_timing(run, folder + "/timing.csv", wall);
+  write_summary(run, folder + "/summary.csv", wall);
+  if (run.stage.pressure_samples > 0) {
+    write_pressure(run, folder + "/pressure.csv");
+    write_moment(run, folder + "/moment.csv");
+  }
+}
+
+}  // namespace trackbed::apps

@@ -1,0 +1,257 @@
+#include "apps/trackbed/simulation/run_stages.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "apps/trackbed/signals.h"
+#include "apps/trackbed/simulation/actors.h"
+#include "apps/trackbed/simulation/bearing.h"
+#include "apps/trackbed/simulation/materials.h"
+#include "base/error.h"
+#include "coupling/time_step.h"
+#include "dem/motion/monitor.h"
+
+namespace trackbed::apps {
+namespace {
+
+constexpr int kMonitorSteps = 100;     // between looks at limits and state
+constexpr double kSampleTime = 5e-3;   // between lines of history in a stage without cycles [s]
+constexpr double kShareOfLimit = 0.9;  // of the measured limit at which the step is halved
+
+void set_step(Run& run, double dt) {
+  run.stage.dt = dt;
+  for (coupling::Surface& s : run.world.surfaces) s.structure->set_step(dt);
+}
+
+// A priori: margin times the limit of the stiffest contact to expect; whole steps a cycle.
+void choose_step(Run& run, const Stage& stage) {
+  const NumericsScene& n = run.scene.numerics;
+  dem::TimeStepLimit limit =
+      dem::expected_limit(run.world.bodies, run.world.shapes, run.world.materials, {});
+  const dem::TimeStepLimit now = coupling::measured_limit(run.world, run.threads);
+  double dt = stage.margin * std::min(limit.dt, now.dt);
+  if (n.time_step > 0) {
+    if (n.time_step > std::min(limit.dt, now.dt)) {
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    "Numerics/Time step: %.3g s is over the stability limit of stage '%s' "
+                    "(%.3g s); %.3g s would do",
+                    n.time_step, stage.name.c_str(), std::min(limit.dt, now.dt), dt);
+      throw InputError(text);
+    }
+    dt = n.time_step;
+  }
+  run.stage.steps_per_cycle = 0;
+  if (stage.period > 0) {
+    const int samples = 2 * std::max(1, run.scene.output.samples_per_cycle / 2);
+    const int per_sample = static_cast<int>(std::ceil(stage.period / dt / samples));
+    run.stage.steps_per_cycle = per_sample * samples;
+    dt = stage.period / run.stage.steps_per_cycle;
+  }
+  set_step(run, dt);
+}
+
+void enter(Run& run, const Stage& stage) {
+  stage.enter(run);
+  run.world.materials = make_materials(run.scene, stage.modulus, stage.friction);
+  run.world.pair_forces = dem::make_pair_forces(run.scene.contact.law, true);
+  run.world.patch_forces = dem::make_patch_forces(run.scene.contact.law, true);
+  StageState& s = run.stage;
+  s.steps = s.cycles = s.halvings = 0;
+  s.start = run.world.time;
+  s.grain_force.resize(run.world.bodies.grains, 0.0);
+  apply_load(run, stage.load(run, 0));
+  // Positions, not motion: forces where everything stands.
+  s.dt = 0;
+  coupling::prepare(run.world, step_context(run, stage));
+  choose_step(run, stage);
+  if (stage.ledger) {
+    if (run.scene.numerics.mirror_noise > 0)
+      run.world.bodies.x[0] *= 1 + run.scene.numerics.mirror_noise;
+    coupling::open_ledger(run.world, step_context(run, stage).gravity);
+    s.work_in = s.last_work = s.worst_closure = 0;
+  }
+}
+
+// Looks at limits, overlaps and state; halves the step when contacts have grown too stiff for it.
+void monitor(Run& run, const Stage& stage, Progress& progress) {
+  coupling::World& w = run.world;
+  const Layout& l = run.layout;
+  dem::Region region;
+  const dem::Vec3 room = dem::Vec3::Constant(0.3);
+  region.low = l.low - room, region.high = l.high + room;
+  region.high.z() = HUGE_VAL;
+  for (int k = 0; k < 2; ++k)
+    if (l.period[k] > 0) region.low[k] = -HUGE_VAL, region.high[k] = HUGE_VAL;
+  dem::check_state(w.bodies, w.shapes, w.pairs, step_context(run, stage), w.step, region,
+                   run.scene.contact.largest_overlap);
+  StageState& s = run.stage;
+  s.largest_overlap =
+      std::max(s.largest_overlap, dem::deepest_overlap(w.bodies, w.shapes, w.pairs).share);
+  const dem::TimeStepLimit limit = coupling::measured_limit(w, run.threads);
+  s.largest_step_share = std::max(s.largest_step_share, s.dt / limit.dt);
+  if (s.dt > kShareOfLimit * limit.dt && run.scene.numerics.time_step == 0) {
+    ++s.halvings;
+    s.steps *= 2;
+    s.steps_per_cycle *= 2;
+    set_step(run, 0.5 * s.dt);
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%s: contacts have stiffened, time step halved to %.3g s (limit %.3g s, body %d)",
+                  stage.name.c_str(), s.dt, limit.dt, limit.body);
+    progress.note(text);
+  }
+}
+
+void keep_grain_forces(Run& run) {
+  const coupling::World& w = run.world;
+  std::vector<double>& most = run.stage.grain_force;
+  const auto keep = [&](int body, double force) {
+    if (body < w.bodies.grains) most[body] = std::max(most[body], force);
+  };
+  for (int p = 0; p < w.pairs.size(); ++p) {
+    if (!w.pairs.touching[p]) continue;
+    const double force = w.pairs.force[p].norm();
+    keep(w.pairs.a[p], force), keep(w.pairs.b[p], force);
+  }
+  for (const coupling::Surface& s : w.surfaces)
+    for (int i = 0; i < s.contacts.size(); ++i)
+      if (s.contacts.touching[i]) keep(s.contacts.grain[i], s.contacts.force[i].norm());
+}
+
+bool at_rest(const Run& run, const Stage& stage) {
+  const dem::Bodies& b = run.world.bodies;
+  double kinetic = 0, weight = 0;
+  for (int i = 0; i < b.grains; ++i) {
+    kinetic += 0.5 * b.mass[i] * b.v[i].squaredNorm() + 0.5 * b.L[i].dot(b.omega[i]);
+    weight += b.mass[i] * 9.81 * run.world.shapes.shape(b.shape[i]).sieve_size;
+  }
+  return run.world.time - run.stage.start > 0.05 && stage.until_quiet &&
+         kinetic < run.scene.packing.quiet * weight;
+}
+
+// What is recorded at the trough and at the peak of a load cycle. True: the stage is over.
+bool record_cycle(Run& run, const Stage& stage, Recorder& recorder) {
+  StageState& s = run.stage;
+  const int phase = s.steps % s.steps_per_cycle;
+  const bool tamping = run.actors.plate;
+  if (!tamping && phase == s.steps_per_cycle / 2) {
+    s.u_max = sleeper_displacement(run) - s.u0;
+    s.load_max = s.load;
+    keep_pressure(run);
+  }
+  if (phase != 0) return false;
+  ++s.cycles;
+  if (tamping) {
+    recorder.compaction(run);
+  } else {
+    const double u_start = s.u_min, load_start = s.load_min;
+    s.u_min = sleeper_displacement(run) - s.u0;
+    s.load_min = s.load;
+    recorder.cycle(run, stage, load_start, u_start);
+  }
+  return stage.after_cycle && stage.after_cycle(run);
+}
+
+std::string detail(const Run& run) {
+  char text[80] = "";
+  if (run.actors.plate)
+    std::snprintf(text, sizeof text, "cycle %d, density %.0f kg/m3", run.stage.cycles,
+                  bed_density(run));
+  else if (run.stage.steps_per_cycle > 0)
+    std::snprintf(text, sizeof text, "cycle %d, settlement %.3f mm", run.stage.cycles,
+                  1e3 * run.stage.u_min);
+  else
+    std::snprintf(text, sizeof text, "%d contacts", coupling::count_contacts(run.world));
+  return text;
+}
+
+// The time at which a stage's first step starts: what is zero from here on.
+void start_of_stage(Run& run, const Stage& stage, Recorder& recorder) {
+  StageState& s = run.stage;
+  if (stage.period > 0 && run.actors.plate) recorder.compaction(run);
+  if (stage.period > 0 && !run.actors.plate) {
+    s.u0 = sleeper_displacement(run);
+    s.u_min = 0, s.load_min = s.load;
+  }
+  recorder.sample(run, stage);
+}
+
+bool sample_due(const StageState& s, const Scene& scene) {
+  if (s.steps_per_cycle > 0) {
+    const int samples = 2 * std::max(1, scene.output.samples_per_cycle / 2);
+    return s.steps % (s.steps_per_cycle / samples) == 0;
+  }
+  return s.steps % std::max(1, static_cast<int>(kSampleTime / s.dt)) == 0;
+}
+
+bool snapshot_due(const StageState& s, double interval) {
+  return interval > 0 && s.steps % std::max(1, static_cast<int>(interval / s.dt + 0.5)) == 0;
+}
+
+}  // namespace
+
+Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
+                  const std::string& folder, Recorder& recorder, SnapshotLog& snapshots,
+                  Progress& progress) {
+  using Clock = std::chrono::steady_clock;
+  StageState& s = run.stage;
+  const OutputScene& out = run.scene.output;
+  auto saved = Clock::now();
+  const auto checkpoint = [&] {
+    recorder.flush();
+    save_run(folder + "/checkpoint.h5", run, {recorder.rows(), snapshots});
+    saved = Clock::now();
+  };
+
+  for (int k = s.index - first_index; k < static_cast<int>(stages.size()); ++k) {
+    const Stage& stage = stages[k];
+    s.index = first_index + k;
+    const bool resumed = s.dt > 0 && s.steps > 0;
+    if (resumed) {
+      run.world.materials = make_materials(run.scene, stage.modulus, stage.friction);
+      run.world.pair_forces = dem::make_pair_forces(run.scene.contact.law, true);
+      run.world.patch_forces = dem::make_patch_forces(run.scene.contact.law, true);
+      set_step(run, s.dt);
+    } else {
+      enter(run, stage);
+      start_of_stage(run, stage, recorder);
+    }
+    progress.begin(stage.name, run.world.time, s.start + stage.longest);
+    const coupling::Drive drive = [&](coupling::World&, double time) {
+      apply_load(run, stage.load(run, time - s.start));
+    };
+    bool over = false;
+    while (!over) {
+      coupling::advance(run.world, step_context(run, stage), drive);
+      ++s.steps;
+      if (s.steps % kMonitorSteps == 0) monitor(run, stage, progress);
+      if (sample_due(s, run.scene)) {
+        keep_grain_forces(run);
+        recorder.sample(run, stage);
+      }
+      if (s.steps_per_cycle > 0) over = record_cycle(run, stage, recorder);
+      over = over || (s.steps % kMonitorSteps == 0 && at_rest(run, stage)) ||
+             run.world.time - s.start > stage.longest - 0.5 * s.dt;
+      if (over || snapshot_due(s, out.snapshot_interval))
+        write_snapshot(run, stage, folder, out.structure_fields, snapshots);
+      if (progress.due()) progress.update(run.world.time, detail(run));
+      if (stop_requested() && !over) {
+        checkpoint();
+        progress.finish(run.world.time, "stopped, checkpoint written");
+        return Ending::stopped;
+      }
+      const std::chrono::duration<double> since = Clock::now() - saved;
+      if (out.checkpoint_interval > 0 && since.count() > 60 * out.checkpoint_interval) checkpoint();
+    }
+    progress.finish(run.world.time, detail(run));
+    s.index = first_index + k + 1;
+    s.dt = 0, s.steps = 0;
+    checkpoint();
+  }
+  return Ending::done;
+}
+
+}  // namespace trackbed::apps

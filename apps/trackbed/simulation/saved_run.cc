@@ -1,0 +1,99 @@
+#include "apps/trackbed/simulation/saved_run.h"
+
+#include "apps/trackbed/simulation/actors.h"
+#include "base/error.h"
+#include "coupling/archive.h"
+#include "coupling/checkpoint.h"
+
+namespace trackbed::apps {
+namespace {
+
+constexpr int kFormat = 1;  // raised when the arrays change
+
+template <class A>
+void visit(A& a, const std::string& name, bool& flag) {
+  int value = flag;
+  a(name, value);
+  flag = value != 0;
+}
+
+template <class A>
+void visit(A& a, Actors& t) {
+  a("actors/walls", t.walls);
+  visit(a, "actors/floor", t.floor);
+  visit(a, "actors/plate", t.plate);
+  visit(a, "actors/rigid_sleeper", t.rigid_sleeper);
+  a("actors/sleeper_surface", t.sleeper_surface);
+  a("actors/subgrade_surface", t.subgrade_surface);
+  a("actors/sleeper_base", t.sleeper_base);
+  a("actors/sleeper_start", t.sleeper_start);
+}
+
+template <class A>
+void visit(A& a, StageState& s) {
+  a("stage/index", s.index), a("stage/steps", s.steps), a("stage/cycles", s.cycles);
+  a("stage/halvings", s.halvings), a("stage/steps_per_cycle", s.steps_per_cycle);
+  a("stage/dt", s.dt), a("stage/start", s.start), a("stage/load", s.load), a("stage/u0", s.u0);
+  a("stage/u_min", s.u_min), a("stage/load_min", s.load_min);
+  a("stage/u_max", s.u_max), a("stage/load_max", s.load_max);
+  a("stage/largest_overlap", s.largest_overlap);
+  a("stage/largest_step_share", s.largest_step_share);
+  a("stage/work_in", s.work_in), a("stage/last_work", s.last_work);
+  a("stage/worst_closure", s.worst_closure);
+  a("stage/grain_force", s.grain_force);
+  a("stage/pressure", s.pressure), a("stage/pressure_samples", s.pressure_samples);
+}
+
+template <class A>
+void visit(A& a, RunRecords& r) {
+  a("records/rows", r.rows);
+  a("records/snapshots", r.snapshots.count), a("records/meshes", r.snapshots.meshes);
+  a("records/mesh_grains", r.snapshots.mesh_grains), a("records/times", r.snapshots.times);
+  a("records/mesh_of", r.snapshots.mesh_of), a("records/points_of", r.snapshots.points_of);
+  a("records/triangles_of", r.snapshots.triangles_of);
+}
+
+template <class A>
+void visit(A& a, coupling::StepTimes& t) {
+  std::vector<double> v{t.motion,           t.candidates, t.grain_contacts,
+                        t.surface_contacts, t.structures, static_cast<double>(t.steps)};
+  a("times", v);
+  if (v.size() == 6) t = {v[0], v[1], v[2], v[3], v[4], static_cast<long>(v[5])};
+}
+
+}  // namespace
+
+void save_run(const std::string& file, Run& run, const RunRecords& records) {
+  coupling::ArchiveWriter a(file);
+  int format = kFormat;
+  a("format", format);
+  visit(a, run.actors);
+  visit(a, run.stage);
+  RunRecords copy = records;
+  visit(a, copy);
+  visit(a, run.world.times);
+  coupling::write_world(a, run.world);
+  a.commit();
+}
+
+RunRecords load_run(const std::string& file, Run& run) {
+  coupling::ArchiveReader a(file);
+  int format = 0;
+  a("format", format);
+  if (format != kFormat)
+    throw InputError(file + ": format " + std::to_string(format) + ", this program reads " +
+                     std::to_string(kFormat));
+  visit(a, run.actors);
+  visit(a, run.stage);
+  RunRecords records;
+  visit(a, records);
+  visit(a, run.world.times);
+  coupling::read_world(a, run.world);
+  if (run.actors.sleeper_surface >= 0 || run.actors.subgrade_surface >= 0) {
+    build_structures(run);
+    coupling::read_surfaces(a, run.world);
+  }
+  return records;
+}
+
+}  // namespace trackbed::apps

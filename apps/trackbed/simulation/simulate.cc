@@ -1,0 +1,66 @@
+#include "apps/trackbed/simulation/simulate.h"
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "apps/trackbed/files.h"
+#include "apps/trackbed/simulation/packing_store.h"
+#include "apps/trackbed/simulation/results.h"
+#include "base/error.h"
+
+namespace trackbed::apps {
+namespace {
+
+Run make_run(const Scene& scene, int threads) {
+  Run run;
+  run.scene = scene;
+  run.layout = make_layout(scene);
+  run.threads =
+      threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return run;
+}
+
+}  // namespace
+
+Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& progress) {
+  const auto begun = std::chrono::steady_clock::now();
+  const std::string& folder = options.folder;
+  const std::string resolved = folder + "/scene.resolved.prm";
+  if (options.resume && std::filesystem::exists(resolved) && read_text(resolved) != scene.resolved)
+    throw InputError(resolved +
+                     ": the scene has changed since the run was started; resume takes "
+                     "the same scene and --set options");
+  write_aside_then_rename(resolved, scene.resolved);
+
+  Run run = make_run(scene, options.threads);
+  const std::vector<Stage> packing = packing_stages(scene);
+  const int packed = static_cast<int>(packing.size());
+  RunRecords records;
+  if (options.resume)
+    records = load_run(folder + "/checkpoint.h5", run);
+  else if (!options.packing_only && take_packing(run, folder)) {
+    records.rows = {Recorder::kNew, Recorder::kNew, Recorder::kNew, Recorder::kKeepAll};
+    progress.note("packing " + packing_name(scene) + " taken from " + scene.packing.folder);
+  }
+  Recorder recorder = records.rows.empty() ? Recorder(folder) : Recorder(folder, records.rows);
+
+  const auto finish = [&](Ending ending) {
+    recorder.flush();
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
+    write_results(run, folder, wall.count());
+    return ending;
+  };
+  if (run.stage.index < packed) {
+    if (run_stages(run, packing, 0, folder, recorder, records.snapshots, progress) ==
+        Ending::stopped)
+      return finish(Ending::stopped);
+    recorder.flush();
+    keep_packing(run, folder);
+  }
+  if (options.packing_only) return finish(Ending::done);
+  return finish(run_stages(run, loading_stages(scene), packed, folder, recorder, records.snapshots,
+                           progress));
+}
+
+}  // namespace trackbed::apps

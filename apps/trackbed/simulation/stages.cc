@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+
+#include "apps/trackbed/simulation/actors.h"
+#include "apps/trackbed/simulation/grains.h"
+#include "apps/trackbed/simulation/stage.h"
+
+namespace trackbed::apps {
+namespace {
+
+// From 0 to `peak` and back, period T: the load starts and ends at its least.
+double cyclic(double t, double period, double least, double largest) {
+  return least + 0.5 * (largest - least) * (1 - std::cos(2 * M_PI * t / period));
+}
+
+const std::vector<dem::GrainShape>& library(Run& run) {
+  if (run.library.empty()) run.library = make_grain_library(run.scene, {});
+  return run.library;
+}
+
+Stage packing_stage(const Scene& s, const char* name) {
+  Stage stage;
+  stage.name = name;
+  stage.modulus = s.contact.packing_modulus;
+  stage.damping = s.contact.packing_damping;
+  stage.margin = s.numerics.packing_margin;
+  stage.friction = s.packing.packing_friction >= 0 ? s.packing.packing_friction : s.grains.friction;
+  stage.longest = s.packing.settle_time;
+  stage.until_quiet = true;
+  stage.load = [](const Run&, double) { return 0.0; };
+  stage.enter = [](Run&) {};
+  return stage;
+}
+
+}  // namespace
+
+std::vector<Stage> packing_stages(const Scene& s) {
+  std::vector<Stage> stages;
+
+  Stage deposit = packing_stage(s, "deposit");
+  deposit.enter = [](Run& run) {
+    pour_grains(run, draw_grains(run.scene, library(run), run.layout.bed_mass, 0), false);
+    add_walls(run);
+  };
+  stages.push_back(deposit);
+
+  if (s.packing.plate_cycles > 0) {
+    Stage tamping = packing_stage(s, "tamping");
+    tamping.until_quiet = false;
+    tamping.period = 1 / s.packing.plate_frequency;
+    tamping.longest = s.packing.plate_cycles * tamping.period;
+    tamping.enter = [](Run& run) { add_plate(run); };
+    tamping.load = [](const Run& run, double t) {
+      const PackingScene& p = run.scene.packing;
+      return cyclic(t, 1 / p.plate_frequency, 0, p.plate_force);
+    };
+    tamping.after_cycle = [](Run& run) {
+      const double target = run.scene.packing.target_density;
+      return target > 0 && bed_density(run) >= target;
+    };
+    stages.push_back(tamping);
+  }
+
+  Stage fill = packing_stage(s, "sleeper in");
+  fill.enter = [](Run& run) {
+    if (run.actors.plate) remove_moving_body(run);
+    trim_shoulders(run);
+    if (run.layout.fill_mass > 0)
+      pour_grains(run, draw_grains(run.scene, library(run), run.layout.fill_mass, 1), true);
+    add_rigid_sleeper(run);
+  };
+  stages.push_back(fill);
+
+  Stage harden = packing_stage(s, "hardening");
+  harden.modulus = s.contact.modulus;
+  harden.friction = s.grains.friction;
+  harden.margin = s.numerics.margin;
+  harden.longest = 0.25 * s.packing.settle_time;
+  harden.enter = [](Run& run) { trim_shoulders(run); };
+  stages.push_back(harden);
+  return stages;
+}
+
+std::vector<Stage> loading_stages(const Scene& s) {
+  Stage seating;
+  seating.name = "seating";
+  seating.modulus = s.contact.modulus;
+  seating.damping = s.contact.packing_damping;
+  seating.margin = s.numerics.margin;
+  seating.friction = s.grains.friction;
+  seating.longest = 2 * s.loading.ramp_time;
+  seating.ledger = true;
+  seating.enter = [](Run& run) { place_structures(run); };
+  seating.load = [](const Run& run, double t) {
+    const LoadingScene& l = run.scene.loading;
+    return l.least * std::min(1.0, l.ramp_time > 0 ? t / l.ramp_time : 1);
+  };
+
+  Stage loading = seating;
+  loading.name = "loading";
+  loading.damping = s.contact.damping;
+  loading.period = 1 / s.loading.frequency;
+  loading.longest = s.loading.cycles * loading.period;
+  loading.enter = [](Run&) {};
+  loading.load = [](const Run& run, double t) {
+    const LoadingScene& l = run.scene.loading;
+    return cyclic(t, 1 / l.frequency, l.least, l.largest);
+  };
+  return {seating, loading};
+}
+
+dem::StepContext step_context(const Run& run, const Stage& stage) {
+  dem::StepContext c;
+  c.dt = run.stage.dt;
+  c.local_damping = stage.damping;
+  c.period = run.layout.period;
+  // Handing out work costs microseconds: a thread for every hundred grains at most. The answer does
+  // not depend on it.
+  c.threads = std::min(run.threads, 1 + run.world.bodies.grains / 100);
+  return c;
+}
+
+double sleeper_displacement(const Run& run) {
+  const coupling::World& w = run.world;
+  if (run.actors.sleeper_surface >= 0) {
+    const fem::Structure& s = *w.surfaces[run.actors.sleeper_surface].structure;
+    double sum = 0;
+    for (int k = 0; k < s.loads(); ++k) sum -= s.load_displacement(k)[2];
+    return sum / s.loads();
+  }
+  return run.actors.sleeper_start - w.bodies.x[moving_body(run)].z();
+}
+
+double bed_height(const Run& run) {
+  const double plate = run.world.bodies.x[moving_body(run)].z();
+  return plate - 0.5 * run.scene.packing.plate_thickness;
+}
+
+double bed_density(const Run& run) {
+  double mass = 0;
+  for (int i = 0; i < run.world.bodies.grains; ++i) mass += run.world.bodies.mass[i];
+  const dem::Vec3 size = run.layout.high - run.layout.low;
+  return mass / (size.x() * size.y() * bed_height(run));
+}
+
+}  // namespace trackbed::apps
