@@ -61,8 +61,9 @@ PressureForce integrate_pressure(const OverlapWorkspace& work,
   for (const OverlapPiece& piece : pieces)
     for_each_triangle(work, piece, s.centroid, [&](const Vec3(&y)[3], const Vec3& area) {
       const Means m = means(y, r);
-      total.force += m.p * area;
-      total.moment += m.py.cross(area);
+      const Vec3 acts = area.cwiseProduct(r.acts_on);
+      total.force += m.p * acts;
+      total.moment += m.py.cross(acts);
     });
   return total;
 }
@@ -93,7 +94,7 @@ NodalForces nodal_pressure(const OverlapWorkspace& work, const OverlapPiece& pie
     const Vec3& q = corner[(i + 1) % 3];
     const Vec3 gradient = normal.cross(corner[(i + 2) % 3] - q) / twice2;
     const double at_c = gradient.dot(s.centroid - q);
-    out.f[i] = (at_c * p.zeroth + gradient.dot(p.first)) * p.normal;
+    out.f[i] = (at_c * p.zeroth + gradient.dot(p.first)) * p.normal.cwiseProduct(r.acts_on);
     out.share[i] = at_c * p.area + gradient.dot(p.area_first);
   }
   return out;

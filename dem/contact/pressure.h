@@ -18,7 +18,7 @@ OverlapShape make_shape(const OverlapMoments&, const OverlapWorkspace&);
 
 /// Frame axes. On body a acts -force with -moment about the overlap's centroid c.
 struct PressureForce {
-  Vec3 force = Vec3::Zero();   ///< int p n dA [N], n outward from the pieces' body
+  Vec3 force = Vec3::Zero();   ///< int p n dA [N], n (acts_on only) outward from the pieces' body
   Vec3 moment = Vec3::Zero();  ///< int (x-c) x n p dA [N m]
 };
 PressureForce integrate_pressure(const OverlapWorkspace&, const std::vector<OverlapPiece>&,

@@ -44,7 +44,7 @@ struct Simplex {
   Vec3 p[4] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   int n = 0;
 
-  Vec3 segment(const Vec3& a, const Vec3& b) {
+  Vec3 segment(Vec3 a, Vec3 b) {  // by value: they may be own corners
     const Vec3 ab = b - a;
     const double t = -a.dot(ab), l = ab.squaredNorm();
     if (t <= 0 || !(l > 0)) return keep(a);
@@ -52,7 +52,7 @@ struct Simplex {
     p[0] = a, p[1] = b, n = 2;
     return a + (t / l) * ab;
   }
-  Vec3 triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Vec3 triangle(Vec3 a, Vec3 b, Vec3 c) {
     const Vec3 ab = b - a, ac = c - a;
     const double d1 = -ab.dot(a), d2 = -ac.dot(a), d3 = -ab.dot(b), d4 = -ac.dot(b),
                  d5 = -ab.dot(c), d6 = -ac.dot(c);
@@ -96,10 +96,9 @@ struct Simplex {
   }
 
  private:
-  Vec3 keep(const Vec3& a) {
-    const Vec3 kept = a;
-    p[0] = kept, n = 1;
-    return kept;
+  Vec3 keep(Vec3 a) {
+    p[0] = a, n = 1;
+    return a;
   }
 };
 
@@ -139,6 +138,44 @@ void best_face(const Pair& pair, double& best, Vec3& axis) {
   }
 }
 
+// Gilbert-Johnson-Keerthi from `axis`: improves axis and its gap `best` until the bodies are apart
+// along it by at least 0.8 of their distance (an axis close to the widest gap lasts longest), or
+// until they are known to overlap.
+void widen(const Pair& pair, double& best, Vec3& axis) {
+  const double noise = 1e-14 * (pair.a.radius + pair.b.radius);
+  Simplex simplex;
+  simplex.p[simplex.n++] = pair.support(axis);
+  for (int iteration = 0; iteration < 32; ++iteration) {
+    Vec3 closest;
+    if (!simplex.closest(closest)) return;
+    const double distance = closest.norm();
+    if (!(distance > noise)) return;
+    const Vec3 n = closest / distance;
+    const double g = pair.gap(n);
+    if (g > best) best = g, axis = n;
+    if (best >= 0.8 * distance) return;
+    const Vec3 w = pair.support(n);
+    for (int k = 0; k < simplex.n; ++k)
+      if (w == simplex.p[k]) return;
+    simplex.p[simplex.n++] = w;
+  }
+}
+
+// While they overlap: the direction between the closest points once b is pushed out along the best
+// axis so far is a better one (edge on edge is found this way).
+void push_out(const Pair& pair, double& best, Vec3& axis) {
+  for (int round = 0; round < 8; ++round) {
+    Pair apart = pair;
+    apart.ab -= 1.05 * best * axis;
+    Vec3 n = axis;
+    double gap = 0;
+    widen(apart, gap, n);
+    const double g = pair.gap(n);
+    if (!(g > best)) return;
+    best = g, axis = n;
+  }
+}
+
 }  // namespace
 
 double support_gap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
@@ -153,25 +190,9 @@ double separating_axis(const ConvexView& a, const Pose& pa, const ConvexView& b,
   double best = pair.gap(axis);
   if (best > 0) return best;
 
-  const double noise = 1e-14 * (a.radius + b.radius);
-  Simplex simplex;
-  simplex.p[simplex.n++] = pair.support(axis);
-  for (int iteration = 0; iteration < 32; ++iteration) {
-    Vec3 closest;
-    if (!simplex.closest(closest)) break;
-    const double distance = closest.norm();
-    if (!(distance > noise)) break;
-    const Vec3 n = closest / distance;
-    const double g = pair.gap(n);
-    if (g > best) best = g, axis = n;
-    if (best >= 0.8 * distance) return best;  // an axis close to the widest gap lasts longest
-    const Vec3 w = pair.support(n);
-    bool known = false;
-    for (int k = 0; k < simplex.n; ++k) known = known || w == simplex.p[k];
-    if (known) break;
-    simplex.p[simplex.n++] = w;
-  }
+  widen(pair, best, axis);
   if (!(best > 0)) best_face(pair, best, axis);
+  if (!(best > 0)) push_out(pair, best, axis);
   return best;
 }
 
