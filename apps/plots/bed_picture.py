@@ -46,6 +46,8 @@ class Bed:
         # The long side of the bed lies across the picture; the front is the near end of the short side.
         self.across = 0 if high[0] - low[0] >= high[1] - low[1] else 1
         self.inward = 1 - self.across
+        self.long = high[self.across] - low[self.across] > 3 * (high[self.inward] - low[self.inward])
+        self.floor = low[2] - 0.32 * (high[2] - low[2])   # as much of the subgrade is drawn
         self.structures = self._structures(run, snapshot.time)
         self.cut = self._cut()
         self.shown = centre[:, self.inward] >= self.cut
@@ -80,7 +82,8 @@ class Bed:
     @property
     def toward(self):
         side = np.zeros(3)
-        side[self.inward], side[self.across] = -1.0, 0.42 if self.across == 0 else -0.42
+        turn = 0.42 if not self.long else 0.16   # a long bed is seen more squarely, or it would run off the page
+        side[self.inward], side[self.across] = -1.0, turn if self.across == 0 else -turn
         side[2] = 0.46
         return side
 
@@ -108,7 +111,7 @@ class Bed:
         """Fits the drawn grains and the structures, of the subgrade only what lies near the bed."""
         low = self.low - 0.03 * (self.high - self.low)
         high = self.high + 0.03 * (self.high - self.low)
-        low[2] = self.low[2] - 0.32 * (self.high[2] - self.low[2])
+        low[2] = self.floor
         high[2] = np.inf
         places = [self.corners[self.shown[self.owner]].reshape(-1, 3)]
         places += [grid.points + grid.displacement for grid in self.structures.values()]
@@ -173,7 +176,8 @@ def _structure_meshes(bed):
             meshes.append(raster.Mesh(corners, CONCRETE, 0))
         else:
             values, label, cmap, low, high = field
-            meshes.append(raster.Mesh(corners, _painted(grid, values, cmap, low, high)[grid.triangles], 0))
+            mesh = raster.Mesh(corners, _painted(grid, values, cmap, low, high)[grid.triangles], 0)
+            meshes.append(raster.above(mesh, bed.floor))
             bars.append((label, cmap, low, high))
     return meshes, bars
 
@@ -183,9 +187,14 @@ def _effort(triangles):
     return int(np.clip(8e5 / max(triangles, 1), 12, 28))
 
 
-def stones(run, width=1300, directions=None, bed=None):
+def _width(bed):
+    return 2000 if bed.long else 1300
+
+
+def stones(run, width=None, directions=None, bed=None):
     """The bed at true scale: stones cut away in front, sleeper, subgrade by its vertical stress."""
     bed = bed or Bed(run)
+    width = width or _width(bed)
     extra, bars = _structure_meshes(bed)
     mesh = raster.join([bed.stones(), bed.rigid()] + extra)
     view = bed.view(2 * width)
@@ -199,9 +208,10 @@ def stones(run, width=1300, directions=None, bed=None):
     return Picture(image, 2 / view.scale, bars, caption)
 
 
-def chains(run, width=1300, directions=None, bed=None, backdrop=None):
+def chains(run, width=None, directions=None, bed=None, backdrop=None):
     """Contact forces as rods from the grains' centres through the contact; thickness and colour by force."""
     bed = bed or Bed(run)
+    width = width or _width(bed)
     snapshot = bed.snapshot
     if snapshot.contact_force is None or snapshot.contact_point is None or snapshot.contact_grains is None:
         raise Missing(f"{snapshot.name} has no contacts (contact_point, contact_force, contact_grains)")

@@ -14,7 +14,7 @@ import style  # noqa: E402
 from read_run import Missing, Run  # noqa: E402
 
 
-def build(folder, out, width=1300):
+def build(folder, out, width=None):
     """Bed and chains side by side, or one above the other where the bed is long."""
     style.use()
     run = Run(folder)
@@ -43,7 +43,7 @@ def main():
     parser = argparse.ArgumentParser(description="The bed and its force chains in one picture.")
     parser.add_argument("folder", help="folder of a run")
     parser.add_argument("out", help="PNG to write")
-    parser.add_argument("--width", type=int, default=1300, help="pixels of each half")
+    parser.add_argument("--width", type=int, help="pixels of each half")
     options = parser.parse_args()
     try:
         build(options.folder, options.out, options.width)

@@ -162,6 +162,31 @@ def join(meshes):
     return joined
 
 
+def above(mesh, level):
+    """The part of a mesh over the level z, its triangles cut there; the cut is left open."""
+    parts = []
+    up = mesh.corners[:, :, 2] >= level
+    count = up.sum(axis=1)
+    parts.append(tuple(v[count == 3] for v in (mesh.corners, mesh.colour, mesh.normals, mesh.body)))
+    for inside in (1, 2):
+        cut = np.flatnonzero(count == inside)
+        if not len(cut):
+            continue
+        # The corner that is alone on its side comes first; the turning sense stays.
+        lone = np.argmax(up[cut] == (inside == 1), axis=1)
+        turn = (lone[:, None] + np.arange(3)) % 3
+        fields = [np.take_along_axis(v[cut], turn[:, :, None], axis=1) for v in (mesh.corners, mesh.colour, mesh.normals)]
+        z = fields[0][:, :, 2]
+        share = [(level - z[:, 0]) / (z[:, k] - z[:, 0]) for k in (1, 2)]
+        ab, ac = ([v[:, 0] + s[:, None] * (v[:, k] - v[:, 0]) for v in fields] for k, s in zip((1, 2), share))
+        a, b, c = ([v[:, k] for v in fields] for k in range(3))
+        for corners in ([(a, ab, ac)] if inside == 1 else [(ab, b, c), (ab, c, ac)]):
+            parts.append(tuple(np.stack([corner[f] for corner in corners], axis=1) for f in range(3))
+                         + (mesh.body[cut],))
+    corners, colour, normals, body = (np.concatenate(field) for field in zip(*parts))
+    return Mesh(corners, colour, body, normals)
+
+
 def sky(count):
     """Directions over the upper hemisphere, evenly spread (golden spiral), denser towards the zenith."""
     k = np.arange(count) + 0.5

@@ -170,7 +170,7 @@ def make_run(folder, grains=70, elastic=True, seed=1, nudge=0.0, cycles=12):
     structure = 4 * np.sin(2 * np.pi * 10 * time) ** 2 * (time > 2) * elastic
     transfer = 1e-13 * time
     work = 60 * np.clip(time - 0.8, 0, None) / 2.4
-    closure = 0.004 * np.sin(4 * time) * (work + 120 - gravity)
+    closure = 0.004 * np.sin(4 * time) * work
     local = work + 120 - gravity - kinetic - (contact - 3) - structure - friction - closure
     write_csv(to("energy.csv"), ["time_s", "kinetic_J", "gravity_J", "contact_J", "structure_J", "work_J",
                                  "dissipated_friction_J", "dissipated_local_damping_J", "transfer_error_J",
@@ -407,6 +407,21 @@ class Rendering(unittest.TestCase):
         self.assertTrue(0 <= image.min() and image.max() <= 1)
         inner = image[mask == 1]
         self.assertGreater(np.ptp(inner.mean(axis=1)), 0.05)   # faces differ
+
+    def test_a_cut_keeps_area_and_colour(self):
+        points, triangles = shape(np.random.default_rng(4))
+        mesh = raster.Mesh(points[triangles], np.repeat(points[triangles][:, :, 2:], 3, axis=2), 0)   # colour = z
+        upper = raster.above(mesh, 0.1)
+        self.assertGreaterEqual(upper.corners[:, :, 2].min(), 0.1 - 1e-12)
+        np.testing.assert_allclose(upper.colour[:, :, 0], upper.corners[:, :, 2], atol=1e-6)
+        lower = raster.above(raster.Mesh(mesh.corners * [1, -1, -1], mesh.colour, 0), -0.1)
+
+        def area(part):
+            sides = part.corners[:, 1:] - part.corners[:, :1]
+            return np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).sum() / 2
+
+        self.assertAlmostEqual(area(upper) + area(lower), area(mesh), 12)
+        self.assertTrue((np.einsum("ij,ij->i", upper.face, upper.corners.mean(axis=1)) > 0).all())   # still outward
 
     def test_tubes_are_closed(self):
         mesh = raster.tubes([[0, 0, 0]], [[0, 0, 2.0]], [0.5], [[1, 0, 0]], sides=64)
