@@ -2,3 +2,12 @@
 trackbed_test(contact_overlap unit trackbed_dem)
 trackbed_test(contact_separation unit trackbed_dem)
 trackbed_test(contact_law verification trackbed_dem)
+
+find_package(CGAL REQUIRED)
+trackbed_test(contact_exact verification trackbed_dem CGAL::CGAL)
+
+find_package(benchmark)
+if(benchmark_FOUND)
+  add_executable(contact_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/contact_benchmark.cc)
+  target_link_libraries(contact_benchmark PRIVATE trackbed_dem benchmark::benchmark)
+endif()
