@@ -7,6 +7,8 @@
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/grain_estimate.h"
 #include "apps/trackbed/layers.h"
+#include "apps/trackbed/mesh_names.h"
+#include "apps/trackbed/parameters.h"
 #include "base/error.h"
 
 namespace trackbed::apps {
@@ -138,11 +140,18 @@ void check_subgrade(const Check& c) {
                                     " thick together, Subgrade/Depth is " + metres(s.depth));
 }
 
+/// The boundaries are those of a block: each is held, loaded or touched by grains.
 void check_mesh(const Check& c, const std::string& path) {
   const std::string& mesh = c.values.text(path);
   if (mesh.empty()) return;
   if (!std::filesystem::is_regular_file(mesh))
     c.refuse(path, "no such file (a mesh is looked for next to the scene's file)");
+  const auto names = physical_surfaces(mesh);
+  for (const char* needed : {"bottom", "top", "x_min", "x_max", "y_min", "y_max"})
+    if (std::find(names.begin(), names.end(), needed) == names.end())
+      c.refuse(path, std::string("has no physical surface '") + needed +
+                         "'; needed are bottom, top, x_min, x_max, y_min and y_max, the file has " +
+                         (names.empty() ? "none" : join_names(names)));
 }
 
 void check_loading(const Check& c) {

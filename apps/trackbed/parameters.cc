@@ -69,7 +69,7 @@ void add_container(Section s) {
 void add_grains(Section s) {
   s.choice("Generator", "voronoi", grain_generators(), "of the library of convex grains");
   s.integer("Library size", "600", 1, 1e6, "shapes to draw from");
-  s.integer("Seed", "1", 0, 9e15, "of every random choice: the same seed gives the same packing");
+  s.integer("Seed", "1", 0, 9.2e18, "of every random choice: the same seed gives the same packing");
   s.number("Density", "2600", "kg/m3", 1, 2e4, "of the rock (Shao 2017, Table 3)");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on grain (Shao 2017, Table 3)");
   s.choice("Sieve method", "exact", sieve_methods(), "that puts a grain into its sieve class");
