@@ -22,6 +22,18 @@ bool damps(const ElasticBodyParameters& p) {
   return any;
 }
 
+// Row sums: positive for both orders (27 nodes of order 2: Simpson's weights).
+void lump(dealii::FullMatrix<double>& mass) {
+  for (unsigned a = 0; a < mass.m(); ++a) {
+    double sum = 0;
+    for (unsigned b = 0; b < mass.n(); ++b) {
+      sum += mass(a, b);
+      mass(a, b) = 0;
+    }
+    mass(a, a) = sum;
+  }
+}
+
 void add_bed(const ElasticBodyParameters& p, const Bed& bed, const Discretisation& body,
              const Unknowns& unknowns, Matrices& matrices) {
   const int id = find_boundary(body, p.name, "bed", bed.boundary);
@@ -54,7 +66,7 @@ void add_bed(const ElasticBodyParameters& p, const Bed& bed, const Discretisatio
 }  // namespace
 
 Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discretisation& body,
-                   const Unknowns& unknowns) {
+                   const Unknowns& unknowns, bool lumped_mass) {
   const int n = body.nodes_per_cell, cells = static_cast<int>(body.cell_nodes.size()) / n;
   std::vector<std::vector<int>> groups(cells);
   for (int c = 0; c < cells; ++c) groups[c] = unknowns_of(unknowns, &body.cell_nodes[c * n], n);
@@ -71,6 +83,7 @@ Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discr
   int c = 0;
   for (const auto& cell : grid.nodes.active_cell_iterators()) {
     element.compute(cell);
+    if (lumped_mass) lump(element.mass);
     const Material& material = p.materials[cell->material_id()];
     const std::vector<int>& ids = groups[c];
     for (int a = 0; a < 3 * n; ++a) {
@@ -91,6 +104,8 @@ Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discr
     ++c;
   }
   for (const Bed& bed : p.beds) add_bed(p, bed, body, unknowns, m);
+  if (lumped_mass)
+    for (int i = 0; i < unknowns.count; ++i) m.lumped.push_back(m.mass[m.pattern.place(i, i)]);
   return out;
 }
 

@@ -16,9 +16,10 @@ struct Assembled {
   std::vector<double> node_mass;  ///< ∫ρ N dV per node [kg]; their sum is the body's mass
 };
 
-/// K, M and, if any material or bed damps, C. \throws InputError for a material out of range.
+/// K, M (lumped or consistent) and, if any material or bed damps, C. \throws InputError for a
+/// material out of range.
 Assembled assemble(const ElasticBodyParameters&, const Grid&, const Discretisation&,
-                   const Unknowns&);
+                   const Unknowns&, bool lumped_mass);
 
 /// Stress xx, yy, zz, yz, xz, xy [Pa] at the centre of each cell for nodal displacements.
 std::vector<std::array<double, 6>> cell_stress(const ElasticBodyParameters&, const Grid&,

@@ -29,6 +29,12 @@ const ElasticBodyParameters& checked(const ElasticBodyParameters& p) {
   return p;
 }
 
+bool lumped(const ElasticBodyParameters& p, const Discretisation& body, const Unknowns& unknowns) {
+  for (const Bed& bed : p.beds) find_boundary(body, p.name, "bed", bed.boundary);
+  if (p.mass == Mass::automatic) return free_motion(body, unknowns, p.beds).empty();
+  return p.mass == Mass::lumped;
+}
+
 }  // namespace
 
 struct ElasticBody::Parts {
@@ -59,7 +65,7 @@ struct ElasticBody::Parts {
         grid(checked(p).order),
         body(make(p, grid)),
         unknowns(number_unknowns(body, p.name, p.supports)),
-        assembled(assemble(p, grid, body, unknowns)),
+        assembled(assemble(p, grid, body, unknowns, lumped(p, body, unknowns))),
         surface(contact_surface(body, unknowns, p.name, p.contact)),
         stepper(assembled.matrices, p.newmark ? newmark() : generalised_alpha(p.rho_inf)) {
     for (const Load& l : p.loads) patches.push_back(load_patch(body, p.name, l));
@@ -153,6 +159,7 @@ ElasticBody::~ElasticBody() = default;
 const SurfaceMesh& ElasticBody::surface() const { return parts_->surface.mesh; }
 const ElasticBodyParameters& ElasticBody::parameters() const { return parts_->p; }
 void ElasticBody::set_step(double dt) { parts_->stepper.set_step(dt); }
+bool ElasticBody::is_explicit() const { return parts_->stepper.is_explicit(); }
 
 void ElasticBody::predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const {
   const Parts& s = *parts_;

@@ -4,8 +4,9 @@
 //
 // in time by generalised-α (Chung, Hulbert 1993): spectral radius ρ_∞ at high frequency,
 //   α_m = (2ρ_∞−1)/(ρ_∞+1), α_f = ρ_∞/(ρ_∞+1), γ = ½−α_m+α_f, β = ¼(1−α_m+α_f)²
-// or Newmark's average acceleration (β ¼, γ ½). SI units, z up, positions relative to the scene's
-// origin.
+// or Newmark's average acceleration (β ¼, γ ½); a body with lumped mass and no damping goes by
+// velocity Verlet, without a solve, where Δt ≤ 0.9·2/ω_max (METHODS F: explicit where the limit
+// allows). SI units, z up, positions relative to the scene's origin.
 #pragma once
 #include <limits>
 #include <map>
@@ -89,6 +90,11 @@ enum class Element : std::uint8_t {
   b_bar          ///< order 1 only: mean dilatation (Hughes 1980), for ν near ½
 };
 
+/// Lumped (row sums): no solve at steps below its stability limit; turns a cell's own rotary
+/// inertia up, which a slab held at its base does not feel and a thin free beam does. Consistent:
+/// always implicit. Automatic: lumped if supports and beds hold the body, else consistent.
+enum class Mass : std::uint8_t { automatic, consistent, lumped };
+
 struct ElasticBodyParameters {
   std::string name = "body";  ///< for messages: the section of the parameter file
   MeshParameters mesh;
@@ -102,7 +108,8 @@ struct ElasticBodyParameters {
   Vec gravity{0, 0, 0};  ///< acceleration [m/s2] as body force; {0,0,-9.81} to switch it on
   bool start_in_equilibrium = true;  ///< held bodies: start at rest under gravity, not falling
   bool newmark = false;              ///< average acceleration instead of generalised-α
-  double rho_inf = 0.9;              ///< spectral radius at high frequency [-], 0 … 1
+  Mass mass = Mass::automatic;
+  double rho_inf = 0.9;  ///< spectral radius at high frequency [-], 0 … 1
 };
 
 /// One line of a .pvd file.
@@ -136,6 +143,9 @@ class ElasticBody final : public Structure {
   void load(const std::vector<double>& state) override;
 
   const ElasticBodyParameters& parameters() const;
+
+  /// Whether the step as set goes without a solve.
+  bool is_explicit() const;
 
   /// Shifts the body at rest (its reference) by this much [m]: the sleeper set down on a packed
   /// bed.

@@ -6,9 +6,8 @@
 namespace trackbed::fem {
 namespace {
 
-const auto kUpdate = dealii::update_values | dealii::update_gradients |
-                         dealii::update_JxW_values | dealii::update_jacobians |
-                         dealii::update_quadrature_points;
+const auto kUpdate = dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+                     dealii::update_jacobians | dealii::update_quadrature_points;
 
 double highest(const Grid& grid) {
   double top = -std::numeric_limits<double>::infinity();
@@ -34,7 +33,7 @@ std::vector<std::shared_ptr<const MaterialModel>> models_of(const ElasticBodyPar
 
 ElementIntegrals::ElementIntegrals(const ElasticBodyParameters& p, const Grid& grid)
     : models_(models_of(p)),
-      element_(p.order == 1 ? p.element : Element::standard),
+      element_(p.order == 2 && p.element == Element::incompatible ? Element::standard : p.element),
       top_(highest(grid)),
       values_(grid.shape, dealii::QGauss<3>(p.order + 1), kUpdate),
       centre_(grid.shape, dealii::QMidpoint<3>(), kUpdate) {
@@ -62,6 +61,32 @@ void ElementIntegrals::evaluate_material(const Cell& cell, const dealii::FEValue
   models_[cell->material_id()]->evaluate(in_, out_);
 }
 
+// Gradients whose divergence is projected, in L² over the cell, on constants (order 1) or on linear
+// functions (order 2).
+void ElementIntegrals::project_dilatation() {
+  const unsigned n = values_.dofs_per_cell, points = values_.n_quadrature_points;
+  const unsigned m = n == 8 ? 1 : 4;
+  const auto origin = values_.quadrature_point(points / 2);
+  const auto basis = [&](unsigned k, unsigned q) {
+    return k == 0 ? 1. : (values_.quadrature_point(q) - origin)[k - 1];
+  };
+  dealii::FullMatrix<double> gram(m, m);
+  std::vector<dealii::Tensor<1, 3>> moments(m * n);
+  for (unsigned q = 0; q < points; ++q)
+    for (unsigned k = 0; k < m; ++k) {
+      const double w = basis(k, q) * values_.JxW(q);
+      for (unsigned l = 0; l < m; ++l) gram(k, l) += w * basis(l, q);
+      for (unsigned a = 0; a < n; ++a) moments[k * n + a] += w * values_.shape_grad(a, q);
+    }
+  gram.gauss_jordan();
+  dilatation_.assign(points * n, {});
+  for (unsigned q = 0; q < points; ++q)
+    for (unsigned k = 0; k < m; ++k)
+      for (unsigned l = 0; l < m; ++l)
+        for (unsigned a = 0; a < n; ++a)
+          dilatation_[q * n + a] += basis(k, q) * gram(k, l) * moments[l * n + a];
+}
+
 void ElementIntegrals::compute(const Cell& cell) {
   values_.reinit(cell);
   evaluate_material(cell, values_);
@@ -72,7 +97,7 @@ void ElementIntegrals::compute(const Cell& cell) {
   K = 0;
   mass = 0;
 
-  std::vector<dealii::Tensor<1, 3>> gradient(functions), average(mean ? n : 0);
+  std::vector<dealii::Tensor<1, 3>> gradient(functions);
   dealii::Tensor<2, 3> to_cell;
   double centre_det = 0;
   if (modes) {
@@ -81,14 +106,7 @@ void ElementIntegrals::compute(const Cell& cell) {
     centre_det = determinant(J);
     to_cell = invert(transpose(J));
   }
-  if (mean) {
-    double volume = 0;
-    for (unsigned q = 0; q < points; ++q) {
-      volume += values_.JxW(q);
-      for (unsigned a = 0; a < n; ++a) average[a] += values_.shape_grad(a, q) * values_.JxW(q);
-    }
-    for (auto& g : average) g /= volume;
-  }
+  if (mean) project_dilatation();
 
   for (unsigned q = 0; q < points; ++q) {
     const double E = out_.young[q], nu = out_.poisson[q], w = values_.JxW(q);
@@ -111,7 +129,7 @@ void ElementIntegrals::compute(const Cell& cell) {
           for (unsigned j = 0; j < 3; ++j) {
             double k =
                 volumetric * gradient[a][i] * gradient[b][j] + mu * gradient[a][j] * gradient[b][i];
-            if (mean) k += bulk * average[a][i] * average[b][j];
+            if (mean) k += bulk * dilatation_[q * n + a][i] * dilatation_[q * n + b][j];
             K(3 * a + i, 3 * b + j) += k * w;
           }
           K(3 * a + i, 3 * b + i) += both;

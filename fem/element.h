@@ -1,7 +1,8 @@
 // One cell's integrals. Internal: works with deal.II's FEValues.
 //
 // Standard element: K_ab = ∫ λ ∇N_a⊗∇N_b + μ (∇N_b⊗∇N_a + ∇N_a·∇N_b I) dV.
-// Mean dilatation (Hughes 1980): the volumetric part uses the mean of ∇N over the cell.
+// Mean dilatation (Hughes 1980): the volumetric part uses the mean of ∇N over the cell, for order 2
+// its projection on linear functions.
 // Incompatible modes (Taylor, Beresford, Wilson 1976): three more functions 4t(1−t) a direction,
 // their gradients mapped by the Jacobian at the centre and scaled by det J0 / det J, so that they
 // pass the patch test; eliminated in the cell.
@@ -30,12 +31,15 @@ class ElementIntegrals {
  private:
   void evaluate_material(const Cell&, const dealii::FEValues<3>&);
 
+  void project_dilatation();
+
   std::vector<std::shared_ptr<const MaterialModel>> models_;
   Element element_;
   double top_;
   dealii::FEValues<3> values_, centre_;
   MaterialInputs in_;
   MaterialOutputs out_;
+  std::vector<dealii::Tensor<1, 3>> dilatation_;  // point after point
   dealii::FullMatrix<double> full_, inner_, coupling_, product_;
 };
 

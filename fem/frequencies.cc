@@ -36,7 +36,7 @@ double largest_frequency(const Matrices& m) {
   for (int i = 0; i < n; ++i)
     x[i] = std::sin(1. + 7.13 * i) / std::sqrt(mass[i]);  // any start, always the same
   double value = 0;
-  for (int step = 0; step < 200; ++step) {
+  for (int step = 0; step < 500; ++step) {
     multiply(m.pattern, m.stiffness, x, y);
     double xx = 0, xy = 0;
     for (int i = 0; i < n; ++i) {
@@ -51,7 +51,7 @@ double largest_frequency(const Matrices& m) {
     size = std::sqrt(size);
     if (!(size > 0)) break;
     for (int i = 0; i < n; ++i) x[i] /= size;
-    if (std::abs(now - value) < 1e-5 * now && step > 20) {
+    if (std::abs(now - value) < 1e-6 * now && step > 20) {
       value = now;
       break;
     }

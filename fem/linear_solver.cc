@@ -2,8 +2,6 @@
 
 #include <petscmat.h>
 
-#include <cstdlib>
-
 #include "base/error.h"
 #include "fem/session.h"
 #include "fem/text.h"
@@ -30,11 +28,6 @@ void check(PetscErrorCode code, const char* what) {
     throw RunError(
         text(what, ": PETSc could not factorise or solve (error ", static_cast<int>(code),
              "); the matrix is probably singular: is the body held, are all materials set?"));
-}
-
-const char* package() {
-  const char* chosen = std::getenv("TRACKBED_FACTOR");
-  return chosen ? chosen : MATSOLVERMUMPS;
 }
 
 }  // namespace
@@ -70,7 +63,7 @@ Factor::Factor(const Pattern& p, const std::vector<double>& values, const char* 
   } release{A};
   MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE);
   MatSetOption(A, MAT_SPD, PETSC_TRUE);
-  check(MatGetFactor(A, package(), MAT_FACTOR_CHOLESKY, &petsc_->factor), what);
+  check(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &petsc_->factor), what);
   MatFactorInfo info;
   MatFactorInfoInitialize(&info);
   info.fill = 10;

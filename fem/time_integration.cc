@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fem/frequencies.h"
 #include "fem/text.h"
 
 namespace trackbed::fem {
@@ -19,11 +20,16 @@ Stepper::Stepper(const Matrices& matrices, Scheme scheme) : matrices_(matrices),
   const int n = matrices.pattern.rows();
   for (auto* work : {&m_, &k_, &rhs_, &next_}) work->assign(n, 0.);
   if (!matrices.damping.empty()) c_.assign(n, 0.);
+  if (!matrices.lumped.empty() && matrices.damping.empty())
+    explicit_limit_ = 0.9 * 2 / largest_frequency(matrices);
 }
 
 void Stepper::set_step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw InputError(text("time step of the structure: ", dt, " s given, must be positive"));
+  dt_ = dt;
+  explicit_ = dt <= explicit_limit_;
+  if (explicit_) return;
   auto found = factors_.find(dt);
   if (found == factors_.end()) {
     const auto& [alpha_m, alpha_f, beta, gamma] = scheme_;
@@ -37,11 +43,30 @@ void Stepper::set_step(double dt) {
     found = factors_.emplace(dt, Factor(matrices_.pattern, values, "structure's step")).first;
   }
   factor_ = &found->second;
-  dt_ = dt;
 }
 
 void Stepper::advance(Motion& s, const std::vector<double>& force) {
-  if (!factor_) throw RunError("structure: set_step() must come before advance()");
+  if (!(dt_ > 0)) throw RunError("structure: set_step() must come before advance()");
+  if (explicit_)
+    advance_explicitly(s, force);
+  else
+    advance_implicitly(s, force);
+}
+
+void Stepper::advance_explicitly(Motion& s, const std::vector<double>& force) {
+  const double dt = dt_;
+  const std::size_t n = s.u.size();
+  for (std::size_t i = 0; i < n; ++i) s.u[i] += dt * (s.v[i] + 0.5 * dt * s.a[i]);
+  multiply(matrices_.pattern, matrices_.stiffness, s.u, rhs_);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = (force[i] - rhs_[i]) / matrices_.lumped[i];
+    s.v[i] += 0.5 * dt * (s.a[i] + a);
+    s.a[i] = a;
+    s.f[i] = force[i];
+  }
+}
+
+void Stepper::advance_implicitly(Motion& s, const std::vector<double>& force) {
   const auto& [alpha_m, alpha_f, beta, gamma] = scheme_;
   const std::size_t n = s.u.size();
   const double w = 1 - alpha_f, dt = dt_;

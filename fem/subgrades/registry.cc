@@ -1,0 +1,87 @@
+#include "fem/subgrades/registry.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "fem/text.h"
+
+namespace trackbed::fem {
+namespace {
+
+std::map<std::string, SubgradeModel>& models() {
+  static std::map<std::string, SubgradeModel>
+      all;  // made at first use: files register in any order
+  return all;
+}
+
+void check(const std::string& model, const Parameter& p, const std::string& value) {
+  if (p.kind != ParameterKind::number && p.kind != ParameterKind::integer) return;
+  const std::string where = text("Subgrade/", model, "/", p.key, " = ", value, ": ");
+  std::size_t used = 0;
+  double number = 0;
+  try {
+    number = std::stod(value, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || value.find_first_not_of(" \t", used) != std::string::npos)
+    throw InputError(where + "not a number [" + p.unit + "]");
+  if (!(number >= p.least && number <= p.most))
+    throw InputError(where + text("allowed are ", p.least, " to ", p.most, " ", p.unit));
+}
+
+}  // namespace
+
+const std::map<std::string, SubgradeModel>& subgrade_models() { return models(); }
+
+RegisterSubgrade::RegisterSubgrade(SubgradeModel model) {
+  const std::string name = model.name;
+  models().emplace(name, std::move(model));
+}
+
+std::unique_ptr<Structure> make_subgrade(const std::string& name, const SubgradeSite& site,
+                                         Values values) {
+  const auto found = models().find(name);
+  if (found == models().end())
+    throw InputError(
+        text("Subgrade model '", name, "' is not known; there are ", names_of(models())));
+  const SubgradeModel& model = found->second;
+  for (const auto& [key, value] : values) {
+    bool known = false;
+    std::string keys;
+    for (const Parameter& p : model.parameters) {
+      known |= p.key == key;
+      keys += (keys.empty() ? "" : ", ") + p.key;
+    }
+    if (!known) throw InputError(text("Subgrade/", name, ": no key '", key, "'; there are ", keys));
+  }
+  for (const Parameter& p : model.parameters) {
+    values.emplace(p.key, p.fallback);
+    check(name, p, values.at(p.key));
+  }
+  return model.build(site, values);
+}
+
+double number(const Values& values, const std::string& key) { return std::stod(values.at(key)); }
+
+int cells_over(const SubgradeSite& site, double length) {
+  return std::max(1, static_cast<int>(std::ceil(length / site.element_size - 1e-9)));
+}
+
+ElasticBodyParameters box_under(const SubgradeSite& site) {
+  ElasticBodyParameters p;
+  p.name = "Subgrade";
+  p.mesh.corner = {site.x_low, site.y_low, site.top};  // lowered by the model
+  p.mesh.lengths = {site.x_high - site.x_low, site.y_high - site.y_low, 0};
+  p.mesh.elements = {cells_over(site, p.mesh.lengths[0]), cells_over(site, p.mesh.lengths[1]), 1};
+  p.order = site.order;
+  p.supports["bottom"] = Support::fixed;
+  p.supports["x_min"] = p.supports["x_max"] = site.periodic_x ? Support::periodic : Support::roller;
+  p.supports["y_min"] = p.supports["y_max"] = site.periodic_y ? Support::periodic : Support::roller;
+  p.contact = {"top"};
+  p.newmark = site.newmark;
+  p.rho_inf = site.rho_inf;
+  return p;
+}
+
+}  // namespace trackbed::fem

@@ -1,0 +1,56 @@
+// The subgrade models by name. A model is one file in this folder: a function that builds the
+// structure, its parameters with units, its documentation, and one registration line. No list is
+// edited; the model shows up in the parameter file, in `trackbed parameters` and in the docs.
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/parameter.h"
+#include "fem/elastic_body.h"
+
+namespace trackbed::fem {
+
+/// Where a subgrade lies and how it is meshed and held: the same for all models.
+struct SubgradeSite {
+  double x_low = 0, x_high = 0, y_low = 0, y_high = 0;  ///< plan [m]
+  double top = 0;                                       ///< height of its surface [m]
+  double element_size = 0.1;                            ///< wanted edge length [m]
+  int order = 1;
+  bool periodic_x = false, periodic_y = false;  ///< else rollers at the sides
+  bool newmark = false;
+  double rho_inf = 0.9;
+};
+
+/// What the user wrote, key -> text; every key of the model is there (defaults filled in).
+using Values = std::map<std::string, std::string>;
+
+struct SubgradeModel {
+  std::string name;           ///< the word in the parameter file
+  std::string documentation;  ///< equation, symbols, source, when to use it
+  std::vector<Parameter> parameters;
+  std::function<std::unique_ptr<Structure>(const SubgradeSite&, const Values&)> build;
+};
+
+/// All models, by name.
+const std::map<std::string, SubgradeModel>& subgrade_models();
+
+/// Builds by name; missing keys take their defaults. \throws InputError: unknown model (the names
+/// there are), unknown key, not a number, out of range.
+std::unique_ptr<Structure> make_subgrade(const std::string& model, const SubgradeSite&, Values);
+
+/// One line at the end of a model's file: `const RegisterSubgrade here{{...}};`
+struct RegisterSubgrade {
+  explicit RegisterSubgrade(SubgradeModel);
+};
+
+/// For the models: a number of the user's, checked by make_subgrade already.
+double number(const Values&, const std::string& key);
+/// The box under the site with its sides held; the model adds layers and materials.
+ElasticBodyParameters box_under(const SubgradeSite&);
+/// Cells over a thickness [m] for the site's wanted size.
+int cells_over(const SubgradeSite&, double thickness);
+
+}  // namespace trackbed::fem

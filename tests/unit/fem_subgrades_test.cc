@@ -1,0 +1,70 @@
+// Every file in fem/subgrades is a model that can be chosen by name; bad values are refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "fem/subgrades/registry.h"
+
+using namespace trackbed;
+using namespace trackbed::fem;
+
+namespace {
+
+SubgradeSite site() {
+  SubgradeSite s;
+  s.x_low = -0.3, s.x_high = 0.3, s.y_high = 0.3;
+  s.element_size = 0.15;
+  return s;
+}
+
+std::string refusal(const std::string& model, const Values& values) {
+  try {
+    make_subgrade(model, site(), values);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST(Subgrades, EveryFileIsInTheRegistry) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TRACKBED_SUBGRADES)) {
+    const auto name = entry.path().stem().string();
+    if (entry.path().extension() != ".cc" || name == "registry") continue;
+    EXPECT_TRUE(subgrade_models().count(name)) << name;
+    ++files;
+  }
+  EXPECT_EQ(static_cast<int>(subgrade_models().size()), files);
+}
+
+TEST(Subgrades, AreDocumentedAndStandWithTheirDefaults) {
+  for (const auto& [name, model] : subgrade_models()) {
+    EXPECT_GT(model.documentation.size(), 40u) << name;
+    for (const Parameter& p : model.parameters) {
+      EXPECT_FALSE(p.unit.empty()) << name << p.key;
+      EXPECT_FALSE(p.meaning.empty()) << name << p.key;
+    }
+    const auto structure = make_subgrade(name, site(), {});
+    for (const Vec& x : structure->surface().nodes) EXPECT_NEAR(x[2], 0, 1e-12);
+    structure->set_step(1e-4);
+    std::vector<Vec> f(structure->surface().nodes.size(), Vec{0, 0, -10}), u, v;
+    for (int n = 0; n < 10; ++n) structure->advance(f);
+    structure->motion(u, v);
+    for (const Vec& w : u) EXPECT_LT(w[2], 0) << name;
+  }
+}
+
+TEST(Subgrades, RefuseWithTheNamesThereAre) {
+  EXPECT_NE(refusal("layered", {}).find("layered_elastic"), std::string::npos);
+  EXPECT_NE(refusal("depth_elastic", {{"Deep", "1"}}).find("Depth"), std::string::npos);
+  EXPECT_NE(refusal("depth_elastic", {{"Depth", "-1"}}).find("allowed"), std::string::npos);
+  EXPECT_NE(refusal("depth_elastic", {{"Depth", "1 m"}}).find("not a number"), std::string::npos);
+  EXPECT_NE(refusal("depth_elastic", {{"Poisson ratio", "0.5"}}).find("0.4999"), std::string::npos);
+  EXPECT_NE(refusal("layered_elastic", {{"Layers", "0.2:1e6"}}).find("thickness:E:nu:density"),
+            std::string::npos);
+  EXPECT_NE(refusal("layered_elastic", {{"Layers", "0.2:1e6:0.5:1900"}}).find("Poisson"),
+            std::string::npos);
+}
