@@ -2,6 +2,8 @@
 trackbed_test(fem_body unit trackbed_fem)
 trackbed_test(fem_subgrades unit trackbed_fem)
 target_compile_definitions(fem_subgrades_test PRIVATE TRACKBED_SUBGRADES="${PROJECT_SOURCE_DIR}/fem/subgrades")
+trackbed_test(fem_meshes unit trackbed_fem)
+target_compile_definitions(fem_meshes_test PRIVATE TRACKBED_MESHES="${PROJECT_SOURCE_DIR}/meshes")
 trackbed_test(fem_statics verification trackbed_fem)
 trackbed_test(fem_dynamics verification trackbed_fem)
 # Looks at the library's inner parts, and so at deal.II.
