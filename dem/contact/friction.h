@@ -88,24 +88,23 @@ inline FrictionResult advance_friction(const PairMaterial& m, const Vec3& n, dou
     if (flat2 > 0) old *= std::sqrt(size2 / flat2);
   }
   const Vec3 du = slip.displacement - n.dot(slip.displacement) * n;
-  double k_step = k;  // stiffness that this step's displacement meets
-  Vec3 trial;
-  if (k < k_old) {  // F/k moves on by -du; what the lost area held is gone
-    const Vec3 s_old = old / k_old, s = s_old - du;
-    trial = k * s;
-    result.dissipated = (s_old.squaredNorm() + s.squaredNorm()) / 4 * (k_old - k);
-  } else {
-    k_step = (k_old + k) / 2;
-    trial = old - k_step * du;
-    if (k_old > 0) result.dissipated = size2 * (1 / k_old - 1 / k_step) / 2;
-    if (k_step > 0) result.dissipated += trial.squaredNorm() * (1 / k_step - 1 / k) / 2;
-  }
+  // What this step's displacement meets: growing contact, the mean stiffness; shrinking, the new
+  // one on what the spring keeps.
+  const double k_step = k < k_old ? k : (k_old + k) / 2;
+  const Vec3 trial = k < k_old ? Vec3(k / k_old * old - k * du) : Vec3(old - k_step * du);
   const double cap = m.friction * normal_force, size = trial.norm();
   force = trial;
   if (size > cap) {
     force *= cap / size;
     // Slip (F - F_trial)/k against the mean of the forces at the step's start and end.
-    result.dissipated += (old + force).dot(trial - force) / (2 * k_step);
+    result.dissipated = (old + force).dot(trial - force) / (2 * k_step);
+  }
+  if (k < k_old) {  // what the lost area held is gone
+    const double s2 = size2 / (k_old * k_old) + (k > 0 ? force.squaredNorm() / (k * k) : 0);
+    result.dissipated += s2 / 4 * (k_old - k);
+  } else if (k_step > 0) {  // what the area that is new does not hold
+    if (k_old > 0) result.dissipated += size2 * (1 / k_old - 1 / k_step) / 2;
+    result.dissipated += force.squaredNorm() * (1 / k_step - 1 / k) / 2;
   }
   stiffness = k;
   if (k > 0) result.stored = force.squaredNorm() / (2 * k);

@@ -25,7 +25,7 @@ struct Scene {
   std::function<void(Scene&)> drive;  ///< outer loads of the new time
 
   /// All bodies of one material.
-  Scene(double modulus, double friction, const std::string& law = "stored energy") {
+  Scene(double modulus, double friction, const std::string& law = "stored_energy") {
     PairMaterial m;
     m.modulus = modulus, m.friction = friction, m.tangential_ratio = 0.25;
     materials.set(0, 0, m);

@@ -23,7 +23,7 @@ TEST(Friction, rigid_motion_of_a_pair_is_no_slip) {
   const Vec3 turn(.3, -.2, .5), xa(.1, .2, .3), xb(-.4, .1, 0), c(.05, .2, .1);
   const Quat q = from_rotation_vector(turn);
   const Vec3 shift(.01, .02, -.03);
-  const auto moved = [&](const Vec3& p) { return q * p + shift; };
+  const auto moved = [&](const Vec3& p) -> Vec3 { return q * p + shift; };
   const double dt = .1;
   const ContactSlip s = contact_slip(dt, (moved(xa) - xa) / dt, turn, c - xa, moved(c) - moved(xa),
                                      (moved(xb) - xb) / dt, turn, c - xb, moved(c) - moved(xb));
