@@ -7,12 +7,14 @@
 #include "apps/trackbed/plan.h"
 #include "apps/trackbed/progress.h"
 #include "apps/trackbed/read_scene.h"
+#include "apps/trackbed/simulation/layout.h"
 
 namespace trackbed::apps {
 namespace {
 
 void print_grains(const Scene& scene, const Plan& plan) {
-  std::printf("Grains      about %.0f in the bed (%.1f kg)", plan.grains, bed_mass(scene));
+  std::printf("Grains      about %.0f in the bed (%.1f kg)", plan.grains,
+              make_layout(scene).bed_mass);
   if (plan.fill_grains >= 1) std::printf(", %.0f beside the sleeper", plan.fill_grains);
   std::printf("\n");
   for (const auto& k : gradation_classes(scene))

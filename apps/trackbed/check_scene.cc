@@ -10,6 +10,7 @@
 #include "apps/trackbed/mesh_names.h"
 #include "apps/trackbed/parameters.h"
 #include "base/error.h"
+#include "dem/grading/curve.h"
 
 namespace trackbed::apps {
 namespace {

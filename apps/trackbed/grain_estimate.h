@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "apps/trackbed/scene.h"
-#include "dem/grading/curve.h"
 
 namespace trackbed::apps {
 
@@ -16,20 +15,7 @@ struct GradationClass {
   bool open;            ///< beyond the last sieve: `upper` is Gradation/Top sieve
 };
 
-/// The scene's curve, by name or from its table, with the top sieve that the scene gives. A named
-/// curve that ends at 100 % keeps its own ends.
-dem::SieveCurve gradation_curve(const GradationScene&);
-
-/// The classes that hold mass, from small to large.
+/// The classes of the bed under the sleeper that hold mass, from small to large.
 std::vector<GradationClass> gradation_classes(const Scene&);
-
-/// Volume of the bed's region: the ballast under the sleeper, without the fill beside it [m3].
-double bed_volume(const ContainerScene&);
-
-/// Mass of grains that are packed: bulk density times bed_volume (Shao 2017, Eq. 15) [kg].
-double bed_mass(const Scene&);
-
-/// Mass of ballast put beside the sleeper after packing, at the bulk density [kg].
-double fill_mass(const Scene&);
 
 }  // namespace trackbed::apps

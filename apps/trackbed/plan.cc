@@ -6,12 +6,18 @@
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/grain_estimate.h"
 #include "apps/trackbed/layers.h"
+#include "apps/trackbed/simulation/layout.h"
+#include "apps/trackbed/simulation/materials.h"
+#include "apps/trackbed/simulation/stage.h"
+#include "coupling/edit.h"
+#include "dem/grain/library.h"
+#include "dem/motion/time_step.h"
 
 namespace trackbed::apps {
 namespace {
 
 // Measured on the settled default bed (tests/benchmarks), one thread.
-constexpr double seconds_per_grain_step = 1.2e-5;
+constexpr double seconds_per_grain_step = 5e-6;
 constexpr double parallel_share = 0.9;  // of the work on grains
 constexpr double bytes_per_grain = 12e3;
 constexpr double bytes_of_program = 150e6;
@@ -92,17 +98,23 @@ std::vector<Effect> effects_of(const Scene& s, const Plan& plan) {
   return effects;
 }
 
+/// Some grains as small as the smallest class has them: they set the time step.
+coupling::World sample_of_smallest(const Scene& scene, double size) {
+  dem::LibraryParameters parameters;
+  parameters.generator = scene.grains.generator;
+  parameters.count = 24;
+  parameters.seed = scene.grains.seed;
+  std::vector<dem::GrainShape> shapes;
+  for (const auto& shape : dem::make_library(parameters))
+    shapes.push_back(dem::scaled(shape, size));
+  coupling::World world;
+  coupling::add_grains(world, shapes, std::vector<dem::Vec3>(shapes.size(), dem::Vec3::Zero()),
+                       std::vector<dem::Quat>(shapes.size(), dem::Quat::Identity()),
+                       scene.grains.density, kGrain);
+  return world;
+}
+
 }  // namespace
-
-double contact_stiffness(double modulus, double size, double share) {
-  return 4 * modulus / (3 * std::sqrt(M_PI)) * share * size;
-}
-
-double estimated_step(double margin, double modulus, double density, double size) {
-  const double mass = density * 0.6 * size * size * size;
-  const double omega2 = 4 * contact_stiffness(modulus, size) / mass * 3.5;
-  return margin * 2 / std::sqrt(omega2);
-}
 
 Plan make_plan(const Scene& scene, int threads) {
   Plan plan{};
@@ -111,32 +123,29 @@ Plan make_plan(const Scene& scene, int threads) {
     plan.grains += k.grains;
     least = std::min(least, k.lower);
   }
-  plan.fill_grains = plan.grains * fill_mass(scene) / bed_mass(scene);
+  const Layout layout = make_layout(scene);
+  plan.fill_grains = plan.grains * layout.fill_mass / layout.bed_mass;
   plan.sleeper_unknowns = sleeper_unknowns(scene);
   plan.subgrade_unknowns = subgrade_unknowns(scene);
 
-  const auto& n = scene.numerics;
-  auto step = [&](double margin, double modulus) {
-    return n.time_step > 0 ? n.time_step
-                           : estimated_step(margin, modulus, scene.grains.density, least);
-  };
-  const double packing = step(n.packing_margin, scene.contact.packing_modulus);
-  const double loading = step(n.margin, scene.contact.modulus);
-  const auto& p = scene.packing;
-  const auto& l = scene.loading;
-  auto add = [&](const char* name, double duration, double dt) {
-    if (duration > 0) plan.stages.push_back({name, duration, dt, std::ceil(duration / dt)});
-  };
-  add("deposit", p.settle_time, packing);
-  add("tamping", p.plate_cycles / p.plate_frequency, packing);
-  add("sleeper and fill", 0.5 * p.settle_time, packing);
-  add("loading", l.ramp_time + l.cycles / l.frequency, loading);
+  auto stages = packing_stages(scene);
+  const auto loading = loading_stages(scene);
+  stages.insert(stages.end(), loading.begin(), loading.end());
+  coupling::World sample = sample_of_smallest(scene, least);
+  const double given = scene.numerics.time_step;
+  for (const auto& stage : stages) {
+    if (stage.longest <= 0) continue;
+    sample.materials = make_materials(scene, stage.modulus, stage.friction);
+    const double limit = dem::expected_limit(sample.bodies, sample.shapes, sample.materials, {}).dt;
+    const double dt = given > 0 ? given : stage.margin * limit;
+    plan.stages.push_back({stage.name, stage.longest, dt, std::ceil(stage.longest / dt)});
+  }
 
   const double speedup = 1 / (1 - parallel_share + parallel_share / std::max(1, threads));
   const double solve = solve_seconds(plan.sleeper_unknowns) + solve_seconds(plan.subgrade_unknowns);
   for (const auto& stage : plan.stages) {
-    const bool loads = stage.name == "loading";
-    const bool filled = loads || stage.name == "sleeper and fill";
+    const bool filled = stage.name != "deposit" && stage.name != "tamping";
+    const bool loads = stage.name == "seating" || stage.name == "loading";
     const double count = plan.grains + (filled ? plan.fill_grains : 0);
     plan.seconds += stage.steps * (seconds_per_grain_step * count / speedup + (loads ? solve : 0));
   }

@@ -33,12 +33,4 @@ struct Plan {
 
 Plan make_plan(const Scene&, int threads);
 
-/// Stiffness of the stiffest contact to expect [N/m]: Eq. 17 of Shao 2017 with flat contact,
-/// F = 4E/(3 sqrt(pi)) sqrt(A) depth, over a contact as wide as `share` of the grain.
-double contact_stiffness(double modulus, double size, double share = 0.3);
-
-/// Time step [s] for grains of this size [m]: margin * 2/omega, omega^2 = contacts * k/m * (1 +
-/// r2), with 4 contacts and r2 = 2.5 for the rotation of a grain (arm d/2, inertia m d^2/10).
-double estimated_step(double margin, double modulus, double density, double size);
-
 }  // namespace trackbed::apps
