@@ -9,6 +9,14 @@
 
 namespace trackbed::dem {
 
+/// 9/4 k times the largest tangential radius of gyration squared: what the stored-energy law gives
+/// face on face (U changes as C_zz^(3/4), C_zz by theta^2 C_xx), about a bound for other contacts.
+inline double tilt_stiffness(const OverlapShape& s, double stiffness) {
+  const Mat3& C = s.second_moment;
+  const double mean = (C(0, 0) + C(1, 1)) / 2, half = (C(0, 0) - C(1, 1)) / 2;
+  return 2.25 * stiffness * (mean + std::sqrt(half * half + C(0, 1) * C(0, 1))) / s.volume;
+}
+
 inline void release(Pairs& pairs, int p) {
   if (!pairs.touching[p] && pairs.friction_loss[p] == 0) return;
   pairs.touching[p] = 0;
@@ -17,7 +25,7 @@ inline void release(Pairs& pairs, int p) {
   // What the tangential spring still held is lost with the contact.
   pairs.friction_loss[p] = pairs.friction_energy[p];
   for (auto* v : {&pairs.friction_stiffness, &pairs.energy, &pairs.friction_energy, &pairs.area,
-                  &pairs.depth, &pairs.stiffness})
+                  &pairs.depth, &pairs.stiffness, &pairs.tilt_stiffness})
     (*v)[p] = 0;
 }
 
@@ -80,6 +88,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   pairs.area[p] = area;
   pairs.depth[p] = shape.depth;
   pairs.stiffness[p] = response.stiffness;
+  pairs.tilt_stiffness[p] = tilt_stiffness(shape, response.stiffness);
 }
 
 template <class Law, bool friction>

@@ -31,6 +31,7 @@ struct Pairs {
   std::vector<double> area;             ///< size of the overlap's vector area [m2]
   std::vector<double> depth;            ///< extent of the overlap along the frame's normal [m]
   std::vector<double> stiffness;        ///< normal [N/m]
+  std::vector<double> tilt_stiffness;   ///< of the couple, largest over the tangents [N m]
 
   // Which pairs belong to body i: incident[first[i] .. first[i+1]), ascending; an entry is the
   // pair's index p where i is a, and ~p where i is b. Follows from a, b (index_bodies).
@@ -59,6 +60,7 @@ void for_each_pair_array(P& p, F&& f) {
   f("energy", p.energy), f("friction_energy", p.friction_energy);
   f("friction_loss", p.friction_loss);
   f("area", p.area), f("depth", p.depth), f("stiffness", p.stiffness);
+  f("tilt_stiffness", p.tilt_stiffness);
 }
 
 template <class F>

@@ -65,7 +65,7 @@ double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
     sum.topLeftCorner<3, 3>() += share * K;
     sum.topRightCorner<3, 3>() -= share * K * C;
     sum.bottomRightCorner<3, 3>() +=
-        share * (C.transpose() * K * C + kn * pairs.area[p] / 12 * tangent);
+        share * (C.transpose() * K * C + pairs.tilt_stiffness[p] * tangent);
   }
   if (contacts == 0) return 0;
   sum.bottomLeftCorner<3, 3>() = sum.topRightCorner<3, 3>().transpose();

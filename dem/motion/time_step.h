@@ -5,8 +5,8 @@
 //   omega_max^2 <= max over bodies of the largest eigenvalue of
 //                  sum over its contacts of s_c M^-1/2 B_c^T K_c B_c M^-1/2,
 // B_c: velocity and spin of the body to the velocity of the contact point; s_c = 2, or 1 when the
-// other body is held; K_c = k_n n n^T + k_t (I - n n^T), and a tilt stiffness k_n A/12 about the
-// tangents (A: contact area, as of a square patch). Translation, rotation and friction in one.
+// other body is held; K_c = k_n n n^T + k_t (I - n n^T), and Pairs::tilt_stiffness about the
+// tangents. Translation, rotation and friction in one.
 #pragma once
 #include "dem/contact/pair_forces.h"
 
