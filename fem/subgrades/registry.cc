@@ -84,4 +84,17 @@ ElasticBodyParameters box_under(const SubgradeSite& site) {
   return p;
 }
 
+PointBedParameters points_under(const SubgradeSite& site) {
+  PointBedParameters p;
+  p.x_low = site.x_low, p.x_high = site.x_high;
+  p.y_low = site.y_low, p.y_high = site.y_high;
+  p.top = site.top;
+  p.cells_x = cells_over(site, site.x_high - site.x_low);
+  p.cells_y = cells_over(site, site.y_high - site.y_low);
+  p.periodic_x = site.periodic_x, p.periodic_y = site.periodic_y;
+  p.newmark = site.newmark;
+  p.rho_inf = site.rho_inf;
+  return p;
+}
+
 }  // namespace trackbed::fem

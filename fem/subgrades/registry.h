@@ -10,6 +10,7 @@
 
 #include "base/parameter.h"
 #include "fem/elastic_body.h"
+#include "fem/point_bed.h"
 
 namespace trackbed::fem {
 
@@ -50,6 +51,8 @@ struct RegisterSubgrade {
 double number(const Values&, const std::string& key);
 /// The box under the site with its sides held; the model adds layers and materials.
 ElasticBodyParameters box_under(const SubgradeSite&);
+/// The bed of points on the site; the model adds stiffness, dashpot, mass.
+PointBedParameters points_under(const SubgradeSite&);
 /// Cells over a thickness [m] for the site's wanted size.
 int cells_over(const SubgradeSite&, double thickness);
 

@@ -68,3 +68,34 @@ TEST(Subgrades, RefuseWithTheNamesThereAre) {
   EXPECT_NE(refusal("layered_elastic", {{"Layers", "0.2:1e6:0.5:1900"}}).find("Poisson"),
             std::string::npos);
 }
+
+TEST(PointBed, ComesToRestAtForceOverStiffness) {
+  auto s = site();
+  s.periodic_y = true;
+  const auto bed = make_subgrade("kelvin_voigt", s, {{"Dashpot", "1e6"}});
+  const SurfaceMesh& mesh = bed->surface();
+  EXPECT_DOUBLE_EQ(mesh.period[1], 0.3);
+  bed->set_step(1e-3);
+  std::vector<Vec> f(mesh.nodes.size(), Vec{}), u, v;
+  for (const auto& q : mesh.quads)  // 1e5 Pa
+    for (int node : q) f[node][2] -= 1e5 * 0.15 * 0.15 / 4;
+  for (int n = 0; n < 4000; ++n) bed->advance(f);
+  bed->motion(u, v);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    EXPECT_NEAR(u[i][2], -1e-3, 1e-12);
+    EXPECT_EQ(u[i], u[mesh.same_as[i]]);
+  }
+  const auto e = bed->energy();
+  EXPECT_NEAR(e.strain, 0.5 * 1e5 * 1e-3 * 0.18, 1e-9);
+  EXPECT_NEAR(e.work_surface, e.strain + e.dissipated_damping + e.numerical, 1e-12);
+  std::vector<double> state, again;
+  bed->save(state);
+  const auto other = make_subgrade("kelvin_voigt", s, {{"Dashpot", "1e6"}});
+  other->load(state);
+  other->set_step(1e-3);
+  bed->advance(f);
+  other->advance(f);
+  bed->save(state);
+  other->save(again);
+  EXPECT_EQ(state, again);
+}

@@ -79,7 +79,7 @@ Errors solve(int order, Element element, int n) {
     const Point<3>& x = values.quadrature_point(q);
     for (int d = 0; d < 3; ++d) {
       double value = -kShare[d] * s(x, -1, -1);
-      Vec slope;
+      trackbed::fem::Vec slope;
       for (int e = 0; e < 3; ++e) slope[e] = -kShare[d] * s(x, e, -1);
       for (std::size_t k = 0; k < ids.size(); ++k)
         if (const int i = unknowns.of_node[ids[k]][d]; i >= 0) {

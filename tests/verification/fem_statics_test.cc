@@ -241,7 +241,8 @@ TEST(NearlyIncompressible, ThickCylinderDoesNotLock) {
   EXPECT_GE(cylinder_ratio(2, Element::b_bar, 10, 16), 0.98);
   EXPECT_LE(cylinder_ratio(1, Element::b_bar, 10, 16), 1.02);
   EXPECT_LE(cylinder_ratio(1, Element::incompatible, 10, 16), 1.02);
-  EXPECT_LE(cylinder_ratio(2, Element::b_bar, 10, 16), 1.02);
+  // Quarter shares are not order 2's even pressure: its uneven part does some work of its own.
+  EXPECT_LE(cylinder_ratio(2, Element::b_bar, 10, 16), 1.03);
   EXPECT_LT(cylinder_ratio(1, Element::standard, 10, 16), 0.9);  // the reason for the others
 }
 
