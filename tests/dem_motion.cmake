@@ -8,6 +8,7 @@ motion_test(motion_rotation verification)
 motion_test(motion_impact verification)
 motion_test(statics_block hard)
 motion_test(motion_pile hard)
+motion_test(motion_impacts hard)
 motion_test(pairs_friction unit)
 motion_test(pairs_candidates unit)
 
