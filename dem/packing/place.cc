@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "dem/packing/random.h"
+#include "dem/grain/random.h"
 
 namespace trackbed::dem {
 namespace {
@@ -85,6 +85,14 @@ class Plan {
   std::vector<double> radius_;
 };
 
+// Uniform over all rotations (Shoemake 1992).
+Quat random_rotation(Random& random) {
+  const double u = random.uniform(), a = 2 * M_PI * random.uniform(),
+               b = 2 * M_PI * random.uniform();
+  const double s = std::sqrt(1 - u), t = std::sqrt(u);
+  return Quat(t * std::cos(b), s * std::sin(a), s * std::cos(a), t * std::sin(b));
+}
+
 }  // namespace
 
 Placement place_loose(const std::vector<double>& radii, const PlacementSpace& space,
@@ -121,7 +129,7 @@ Placement place_loose(const std::vector<double>& radii, const PlacementSpace& sp
                        std::to_string(2e3 * r) + " mm");
     plan.add(best, r);
     placement.centre.push_back(best);
-    placement.turn.push_back(random.rotation());
+    placement.turn.push_back(random_rotation(random));
   }
   return placement;
 }

@@ -7,6 +7,7 @@
 #include "apps/trackbed/simulation/structures.h"
 #include "base/error.h"
 #include "coupling/edit.h"
+#include "dem/packing/lower.h"
 #include "dem/packing/place.h"
 #include "dem/surface/rigid.h"
 
@@ -71,7 +72,9 @@ void pour_grains(Run& run, const std::vector<dem::GrainShape>& grains, bool besi
   for (const dem::GrainShape& g : grains) radii.push_back(g.radius);
   const dem::Placement p =
       dem::place_loose(radii, space, present, 10, run.scene.grains.seed + (beside ? 77 : 0));
+  const int before = w.bodies.grains;
   coupling::add_grains(w, grains, p.centre, p.turn, run.scene.grains.density, kGrain);
+  dem::lower_grains(w.bodies, w.shapes, before, 0, run.layout.period, kClearance);
 }
 
 void add_walls(Run& run) {

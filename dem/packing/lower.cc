@@ -1,0 +1,69 @@
+#include "dem/packing/lower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "dem/contact/overlap.h"
+
+namespace trackbed::dem {
+namespace {
+
+// How far grain i may go down before it meets j, at most `limit` [m].
+double free_fall(const Bodies& b, const ShapeTable& shapes, int i, int j, const Vec3& shift,
+                 double limit) {
+  const ConvexView vi = shapes.view(b.shape[i]), vj = shapes.view(b.shape[j]);
+  const Pose pj{b.R[j], b.x[j] + shift};
+  Vec3 axis = pj.x - b.x[i];
+  double way = 0;
+  for (int step = 0; step < 50 && way < limit; ++step) {
+    const Pose pi{b.R[i], b.x[i] - Vec3(0, 0, way)};
+    const double gap = separating_axis(vi, pi, vj, pj, axis);
+    const double closing = -axis.z();  // of the gap along the axis, per way down
+    if (gap <= 0) return way;
+    if (closing <= 1e-12 || gap / closing >= limit - way) return limit;
+    way += gap / closing;
+    if (gap < 1e-9 * vi.radius) return way;
+  }
+  return std::min(way, limit);
+}
+
+double lowest_point(const Bodies& b, const ShapeTable& shapes, int i) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : shapes.shape(b.shape[i]).body.vertices)
+    low = std::min(low, b.x[i].z() + b.R[i].row(2).dot(p));
+  return low;
+}
+
+}  // namespace
+
+void lower_grains(Bodies& b, const ShapeTable& shapes, int first, double floor, const Vec3& period,
+                  double clearance) {
+  std::vector<int> order(b.grains - first);
+  std::iota(order.begin(), order.end(), first);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::pair(b.x[i].z(), i) < std::pair(b.x[j].z(), j); });
+  std::vector<char> settled(b.grains, 0);
+  std::fill(settled.begin(), settled.begin() + first, 1);
+  for (const int i : order) {
+    double way = lowest_point(b, shapes, i) - floor;
+    const double radius = shapes.shape(b.shape[i]).radius;
+    for (int j = 0; j < b.grains; ++j) {
+      if (!settled[j]) continue;
+      Vec3 apart = b.x[j] - b.x[i], shift = Vec3::Zero();
+      for (int k = 0; k < 2; ++k)
+        if (period[k] > 0) shift[k] = -period[k] * std::round(apart[k] / period[k]);
+      apart += shift;
+      const double reach = radius + shapes.shape(b.shape[j]).radius;
+      if (apart.head<2>().squaredNorm() >= reach * reach || apart.z() > reach ||
+          -apart.z() > way + reach)
+        continue;
+      way = std::min(way, free_fall(b, shapes, i, j, shift, way));
+    }
+    b.x[i].z() -= std::max(0.0, way - clearance);
+    settled[i] = 1;
+  }
+}
+
+}  // namespace trackbed::dem
