@@ -1,274 +1,87 @@
 #include "dem/contact/overlap.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "dem/contact/overlap_clip.h"
 
 namespace trackbed::dem {
 namespace {
 
-using Cap = OverlapWorkspace::Cap;
-using Polygon = OverlapWorkspace::Polygon;
+// Sums over cones from `about` to triangles: 6 V, and the first and second moments' raw sums.
+struct Cones {
+  double six = 0, x = 0, y = 0, z = 0;
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 
-void grow(std::vector<double>& v, int n) {
-  if (static_cast<int>(v.size()) < n) v.resize(2 * n);
-}
-
-void grow(Polygon& p, int n) { grow(p.x, n), grow(p.y, n), grow(p.z, n); }
-
-// All vertices in frame coordinates; returns the highest and lowest z.
-std::pair<double, double> to_frame(const ConvexView& v, const Mat3& M, const Vec3& t, Cap& cap) {
-  grow(cap.x, v.vertices), grow(cap.y, v.vertices), grow(cap.z, v.vertices);
-  double high = -std::numeric_limits<double>::infinity(), low = -high;
-  for (int i = 0; i < v.vertices; ++i) {
-    const double x = v.x[i], y = v.y[i], z = v.z[i];
-    cap.x[i] = M(0, 0) * x + M(0, 1) * y + M(0, 2) * z + t.x();
-    cap.y[i] = M(1, 0) * x + M(1, 1) * y + M(1, 2) * z + t.y();
-    cap.z[i] = M(2, 0) * x + M(2, 1) * y + M(2, 2) * z + t.z();
-    high = std::max(high, cap.z[i]), low = std::min(low, cap.z[i]);
-  }
-  return {high, low};
-}
-
-void add_corner(Cap& cap, double x, double y, double z) {
-  const int k = cap.corners++;
-  cap.px[k] = x, cap.py[k] = y, cap.pz[k] = z;
-}
-
-// The side of the cut that is kept: above it for a (up = 1), below it for b (up = -1).
-template <int up>
-bool kept(double z, double cut) {
-  return up > 0 ? z > cut : z < cut;
-}
-
-// The corners of the body's part on the kept side of the cut, and the faces that reach into it.
-template <int up>
-void slab_part(const ConvexView& v, double cut, Cap& cap) {
-  cap.corners = cap.faces = 0;
-  const int corners = v.loop_begin[v.faces];
-  grow(cap.px, v.vertices + corners), grow(cap.py, v.vertices + corners);
-  grow(cap.pz, v.vertices + corners);
-  if (static_cast<int>(cap.face.size()) < v.faces) cap.face.resize(2 * v.faces);
-
-  const auto cross = [&](int i, int j) {  // i is kept, j is not
-    const double s = (cap.z[i] - cut) / (cap.z[i] - cap.z[j]);
-    add_corner(cap, cap.x[i] + s * (cap.x[j] - cap.x[i]), cap.y[i] + s * (cap.y[j] - cap.y[i]),
-               cut);
-  };
-  if (v.vertex_faces) {
-    std::vector<std::uint64_t>& bits = cap.bits;
-    if (static_cast<int>(bits.size()) < v.face_words) bits.resize(v.face_words);
-    std::fill_n(bits.begin(), v.face_words, 0);
-    for (int i = 0; i < v.vertices; ++i) {
-      if (!kept<up>(cap.z[i], cut)) continue;
-      add_corner(cap, cap.x[i], cap.y[i], cap.z[i]);
-      for (int w = 0; w < v.face_words; ++w) bits[w] |= v.vertex_faces[i * v.face_words + w];
-      for (int k = v.neighbor_begin[i]; k < v.neighbor_begin[i + 1]; ++k)
-        if (!kept<up>(cap.z[v.neighbor[k]], cut)) cross(i, v.neighbor[k]);
-    }
-    for (int w = 0; w < v.face_words; ++w)
-      for (std::uint64_t rest = bits[w]; rest; rest &= rest - 1)
-        cap.face[cap.faces++] = 64 * w + __builtin_ctzll(rest);
-  } else {
-    for (int f = 0; f < v.faces; ++f) {
-      const int begin = v.loop_begin[f], end = v.loop_begin[f + 1];
-      bool reaches = false;
-      for (int k = begin; k < end; ++k) {
-        const int i = v.loop[k], j = v.loop[k + 1 < end ? k + 1 : begin];
-        const bool i_kept = kept<up>(cap.z[i], cut), j_kept = kept<up>(cap.z[j], cut);
-        if (i_kept) add_corner(cap, cap.x[i], cap.y[i], cap.z[i]);
-        if (i_kept != j_kept) i_kept ? cross(i, j) : cross(j, i);
-        reaches = reaches || i_kept;
-      }
-      if (reaches) cap.face[cap.faces++] = f;
+  void add(const OverlapPiece& piece, const Vec3* points, const Vec3& about) {
+    const Vec3* p = points + piece.first;
+    const double ax = p[0].x() - about.x(), ay = p[0].y() - about.y(), az = p[0].z() - about.z();
+    double bx = p[1].x() - about.x(), by = p[1].y() - about.y(), bz = p[1].z() - about.z();
+    for (int i = 2; i < piece.count; ++i) {
+      const double cx = p[i].x() - about.x(), cy = p[i].y() - about.y(), cz = p[i].z() - about.z();
+      const double ux = bx - ax, uy = by - ay, uz = bz - az;
+      const double vx = cx - ax, vy = cy - ay, vz = cz - az;
+      const double v =
+          ax * (uy * vz - uz * vy) + ay * (uz * vx - ux * vz) + az * (ux * vy - uy * vx);
+      const double sx = ax + bx + cx, sy = ay + by + cy, sz = az + bz + cz;
+      six += v;
+      x += v * sx, y += v * sy, z += v * sz;
+      xx += v * (sx * sx + ax * ax + bx * bx + cx * cx);
+      yy += v * (sy * sy + ay * ay + by * by + cy * cy);
+      zz += v * (sz * sz + az * az + bz * bz + cz * cz);
+      xy += v * (sx * sy + ax * ay + bx * by + cx * cy);
+      xz += v * (sx * sz + ax * az + bx * bz + cx * cz);
+      yz += v * (sy * sz + ay * az + by * bz + cy * cz);
+      bx = cx, by = cy, bz = cz;
     }
   }
-}
+};
 
-void planes_to_frame(const ConvexView& v, const Mat3& M, const Vec3& t, Cap& cap) {
-  const int n = cap.faces;
-  grow(cap.nx, n), grow(cap.ny, n), grow(cap.nz, n), grow(cap.offset, n);
-  grow(cap.most, n), grow(cap.least, n);
-  for (int k = 0; k < n; ++k) {
-    const int f = cap.face[k];
-    const double x = v.nx[f], y = v.ny[f], z = v.nz[f];
-    cap.nx[k] = M(0, 0) * x + M(0, 1) * y + M(0, 2) * z;
-    cap.ny[k] = M(1, 0) * x + M(1, 1) * y + M(1, 2) * z;
-    cap.nz[k] = M(2, 0) * x + M(2, 1) * y + M(2, 2) * z;
-    cap.offset[k] = v.offset[f] + cap.nx[k] * t.x() + cap.ny[k] * t.y() + cap.nz[k] * t.z();
+// How much a workspace holds, to take back what was appended since.
+struct Mark {
+  std::size_t points, a, b;
+  explicit Mark(const OverlapWorkspace& w)
+      : points(w.points.size()), a(w.a_pieces.size()), b(w.b_pieces.size()) {}
+  void back(OverlapWorkspace& w) const {
+    w.points.resize(points), w.a_pieces.resize(a), w.b_pieces.resize(b);
   }
-}
-
-// Keeps the planes of `cap` that the other body's part may reach. False if one separates the two.
-bool cull_planes(Cap& cap, const Cap& other, double slack) {
-  const int n = cap.faces;
-  std::fill_n(cap.most.begin(), n, -std::numeric_limits<double>::infinity());
-  std::fill_n(cap.least.begin(), n, std::numeric_limits<double>::infinity());
-  for (int c = 0; c < other.corners; ++c) {
-    const double x = other.px[c], y = other.py[c], z = other.pz[c];
-    for (int k = 0; k < n; ++k) {
-      const double d = cap.nx[k] * x + cap.ny[k] * y + cap.nz[k] * z - cap.offset[k];
-      cap.most[k] = d > cap.most[k] ? d : cap.most[k];
-      cap.least[k] = d < cap.least[k] ? d : cap.least[k];
-    }
-  }
-  int m = 0;
-  for (int k = 0; k < n; ++k) {
-    if (cap.least[k] >= 0) return false;
-    if (cap.most[k] < -slack) continue;
-    cap.nx[m] = cap.nx[k], cap.ny[m] = cap.ny[k], cap.nz[m] = cap.nz[k];
-    cap.offset[m] = cap.offset[k], cap.face[m] = cap.face[k];
-    ++m;
-  }
-  cap.faces = m;
-  return true;
-}
-
-// The part of face f on the kept side of the cut.
-template <int up>
-void face_polygon(const ConvexView& v, int f, double cut, const Cap& cap, Polygon& out) {
-  const int begin = v.loop_begin[f], end = v.loop_begin[f + 1];
-  out.n = 0;
-  const auto push = [&out](double x, double y, double z) {
-    out.x[out.n] = x, out.y[out.n] = y, out.z[out.n] = z;
-    ++out.n;
-  };
-  int i = v.loop[end - 1];
-  for (int k = begin; k < end; ++k) {
-    const int j = v.loop[k];
-    const bool i_kept = kept<up>(cap.z[i], cut), j_kept = kept<up>(cap.z[j], cut);
-    if (i_kept != j_kept) {
-      const int p = i_kept ? i : j, q = i_kept ? j : i;
-      const double s = (cap.z[p] - cut) / (cap.z[p] - cap.z[q]);
-      push(cap.x[p] + s * (cap.x[q] - cap.x[p]), cap.y[p] + s * (cap.y[q] - cap.y[p]), cut);
-    }
-    if (j_kept) push(cap.x[j], cap.y[j], cap.z[j]);
-    i = j;
-  }
-}
-
-// The part of a polygon where the signed distance is <= 0, or < 0 if `strict`.
-template <bool strict>
-void clip(const Polygon& in, const double* d, Polygon& out) {
-  out.n = 0;
-  const auto inside = [](double value) { return strict ? value < 0 : value <= 0; };
-  int i = in.n - 1;
-  for (int j = 0; j < in.n; ++j) {
-    if (inside(d[i]) != inside(d[j])) {
-      const int p = inside(d[i]) ? i : j, q = inside(d[i]) ? j : i;
-      const double s = d[p] / (d[p] - d[q]);
-      out.x[out.n] = in.x[p] + s * (in.x[q] - in.x[p]);
-      out.y[out.n] = in.y[p] + s * (in.y[q] - in.y[p]);
-      out.z[out.n] = in.z[p] + s * (in.z[q] - in.z[p]);
-      ++out.n;
-    }
-    if (inside(d[j])) {
-      out.x[out.n] = in.x[j], out.y[out.n] = in.y[j], out.z[out.n] = in.z[j];
-      ++out.n;
-    }
-    i = j;
-  }
-}
-
-// Clips the faces of one body by the planes of the other and appends what is left. Faces of both
-// that coincide are kept when up > 0 (body a) and dropped otherwise.
-template <int up>
-void add_pieces(const ConvexView& v, double cut, const Cap& own, const Cap& other,
-                OverlapWorkspace& work, std::vector<OverlapPiece>& pieces) {
-  for (int k = 0; k < own.faces; ++k) {
-    const int f = own.face[k];
-    const int most = 2 * (v.loop_begin[f + 1] - v.loop_begin[f] + other.faces) + 2;
-    grow(work.polygon[0], most), grow(work.polygon[1], most), grow(work.distance, most);
-    int now = 0;
-    face_polygon<up>(v, f, cut, own, work.polygon[0]);
-    for (int j = 0; j < other.faces && work.polygon[now].n >= 3; ++j) {
-      const Polygon& in = work.polygon[now];
-      double nx = other.nx[j], ny = other.ny[j], nz = other.nz[j], offset = other.offset[j];
-      if (nx * own.nx[k] + ny * own.ny[k] + nz * own.nz[k] > 1 - 1e-6) {  // see overlap.h
-        nx -= own.nx[k], ny -= own.ny[k], nz -= own.nz[k], offset -= own.offset[k];
-      }
-      double* d = work.distance.data();
-      double largest = -std::numeric_limits<double>::infinity();
-      for (int i = 0; i < in.n; ++i) {
-        d[i] = nx * in.x[i] + ny * in.y[i] + nz * in.z[i] - offset;
-        largest = std::max(largest, d[i]);
-      }
-      if (largest < 0 || (up > 0 && largest == 0)) continue;
-      clip<(up < 0)>(in, d, work.polygon[1 - now]);
-      now = 1 - now;
-    }
-    const Polygon& left = work.polygon[now];
-    if (left.n < 3) continue;
-    OverlapPiece piece{f, static_cast<int>(work.points.size()), left.n, Vec3::Zero()};
-    for (int i = 0; i < left.n; ++i) work.points.emplace_back(left.x[i], left.y[i], left.z[i]);
-    const Vec3* p = work.points.data() + piece.first;
-    for (int i = 2; i < left.n; ++i) piece.area += 0.5 * (p[i - 1] - p[0]).cross(p[i] - p[0]);
-    pieces.push_back(piece);
-  }
-}
-
-// Adds the cones from `about` to the piece's triangles.
-void add_moments(const OverlapPiece& piece, const std::vector<Vec3>& points, OverlapMoments& m) {
-  const Vec3* p = points.data() + piece.first;
-  const Vec3 a = p[0] - m.about;
-  Vec3 b = p[1] - m.about;
-  for (int i = 2; i < piece.count; ++i) {
-    const Vec3 c = p[i] - m.about, s = a + b + c;
-    const double six = a.dot((b - a).cross(c - a));  // 6 V
-    m.volume += six / 6;
-    m.first += (six / 24) * s;
-    m.second += (six / 120) *
-                (s * s.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
-    b = c;
-  }
-}
+};
 
 }  // namespace
 
 bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
              const ContactFrame& frame, OverlapWorkspace& work, OverlapMoments& moments) {
-  const Mat3 Ma = frame.axes.transpose() * pa.R, Mb = frame.axes.transpose() * pb.R;
-  const Vec3 ta = frame.axes.transpose() * (pa.x - frame.origin);
-  const Vec3 tb = frame.axes.transpose() * (pb.x - frame.origin);
-  Cap &cap_a = work.cap_a, &cap_b = work.cap_b;
-  const double high = to_frame(a, Ma, ta, cap_a).first;
-  const double low = to_frame(b, Mb, tb, cap_b).second;
-  const double size = std::min(a.radius, b.radius), depth = high - low;
-  if (!(depth > 1e-15 * size)) return false;
+  const Mat3 to_frame = frame.axes.transpose();
+  const PlacedBody body_a{a, to_frame * pa.R, to_frame * (pa.x - frame.origin)};
+  const PlacedBody body_b{b, to_frame * pb.R, to_frame * (pb.x - frame.origin)};
+  const Mark mark(work);
+  const Clipped small = clip_small(body_a, body_b, work);
+  if (small == Clipped::nothing) return false;
+  if (small == Clipped::too_large) {
+    mark.back(work);
+    if (!clip_any(body_a, body_b, work)) return false;
+  }
 
-  // A little more than the slab, so that no clip falls on the cut.
-  const double cut_a = low - 1e-3 * depth, cut_b = high + 1e-3 * depth;
-  slab_part<1>(a, cut_a, cap_a);
-  slab_part<-1>(b, cut_b, cap_b);
-  planes_to_frame(a, Ma, ta, cap_a);
-  planes_to_frame(b, Mb, tb, cap_b);
-  const double slack = 1e-13 * (a.radius + b.radius);
-  if (!cull_planes(cap_a, cap_b, slack) || !cull_planes(cap_b, cap_a, slack)) return false;
-
-  const std::size_t points = work.points.size(), a_first = work.a_pieces.size(),
-                    b_first = work.b_pieces.size();
-  add_pieces<1>(a, cut_a, cap_a, cap_b, work, work.a_pieces);
-  add_pieces<-1>(b, cut_b, cap_b, cap_a, work, work.b_pieces);
-
-  OverlapMoments own;
-  Vec3 mean = Vec3::Zero();
-  for (std::size_t i = points; i < work.points.size(); ++i) mean += work.points[i];
-  const double count = static_cast<double>(work.points.size() - points);
-  const bool first = !(moments.volume > 0);
-  own.about = first && count > 0 ? Vec3(mean / count) : moments.about;
-  for (std::size_t i = a_first; i < work.a_pieces.size(); ++i)
-    add_moments(work.a_pieces[i], work.points, own);
-  for (std::size_t i = b_first; i < work.b_pieces.size(); ++i)
-    add_moments(work.b_pieces[i], work.points, own);
-  if (!(own.volume > 0)) {
-    work.points.resize(points);
-    work.a_pieces.resize(a_first), work.b_pieces.resize(b_first);
+  Vec3 about = moments.about;
+  const std::size_t count = work.points.size() - mark.points;
+  if (!(moments.volume > 0) && count > 0) {  // a point inside: the mean of the corners
+    about.setZero();
+    for (std::size_t i = mark.points; i < work.points.size(); ++i) about += work.points[i];
+    about /= static_cast<double>(count);
+  }
+  Cones sum;
+  for (std::size_t i = mark.a; i < work.a_pieces.size(); ++i)
+    sum.add(work.a_pieces[i], work.points.data(), about);
+  for (std::size_t i = mark.b; i < work.b_pieces.size(); ++i)
+    sum.add(work.b_pieces[i], work.points.data(), about);
+  if (!(sum.six > 0)) {
+    mark.back(work);
     return false;
   }
-  moments.about = own.about;
-  moments.volume += own.volume;
-  moments.first += own.first;
-  moments.second += own.second;
+  moments.about = about;
+  moments.volume += sum.six / 6;
+  moments.first += Vec3(sum.x, sum.y, sum.z) / 24;
+  Mat3& m = moments.second;
+  m(0, 0) += sum.xx / 120, m(1, 1) += sum.yy / 120, m(2, 2) += sum.zz / 120;
+  m(0, 1) += sum.xy / 120, m(0, 2) += sum.xz / 120, m(1, 2) += sum.yz / 120;
+  m(1, 0) = m(0, 1), m(2, 0) = m(0, 2), m(2, 1) = m(1, 2);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 
@@ -60,74 +61,108 @@ int ShapeTable::add(const GrainShape& shape) {
       if (!neighbors[w].count(v)) throw InputError("shape: an edge belongs to one face only");
 
   Begin b;
-  b.vertex = static_cast<int>(x_.size());
+  b.vertex = d_.x.size();
   b.vertices = n;
   b.padded = (n + kPad - 1) / kPad * kPad;
-  b.face = static_cast<int>(nx_.size());
+  b.face = d_.nx.size();
   b.faces = faces;
-  b.loop_begin = static_cast<int>(loop_begin_.size());
-  b.loop = static_cast<int>(loop_.size());
-  b.neighbor_begin = static_cast<int>(neighbor_begin_.size());
-  b.neighbor = static_cast<int>(neighbor_.size());
-  b.bits = static_cast<int>(vertex_faces_.size());
+  b.loop_begin = d_.loop_begin.size();
+  b.loop = d_.loop.size();
+  b.neighbor_begin = d_.neighbor_begin.size();
+  b.neighbor = d_.neighbor.size();
+  b.bits = d_.vertex_faces.size();
+  b.corners = d_.corners.size();
   b.words = (faces + 63) / 64;
-  begin_.push_back(b);
+  b.small_faces = true;
+  for (const auto& face : body.faces) b.small_faces = b.small_faces && face.size() <= 8;
+  d_.begin.push_back(b);
 
   for (int v = 0; v < b.padded; ++v) {
     const Vec3& p = body.vertices[std::min(v, n - 1)];
-    x_.push_back(p.x());
-    y_.push_back(p.y());
-    z_.push_back(p.z());
+    d_.x.push_back(p.x());
+    d_.y.push_back(p.y());
+    d_.z.push_back(p.z());
   }
-  vertex_faces_.resize(vertex_faces_.size() + std::size_t(n) * b.words, 0);
-  std::uint64_t* bits = vertex_faces_.data() + b.bits;
+  d_.vertex_faces.resize(d_.vertex_faces.size() + std::size_t(n) * b.words, 0);
+  std::uint64_t* bits = d_.vertex_faces.data() + b.bits;
+  for (int f = 0; f < (faces + kPad - 1) / kPad * kPad; ++f) {
+    const Plane& plane = planes[std::min(f, faces - 1)];
+    d_.nx.push_back(plane.normal.x());
+    d_.ny.push_back(plane.normal.y());
+    d_.nz.push_back(plane.normal.z());
+    d_.offset.push_back(plane.offset);
+  }
   int loop_end = 0;
   for (int f = 0; f < faces; ++f) {
-    nx_.push_back(planes[f].normal.x());
-    ny_.push_back(planes[f].normal.y());
-    nz_.push_back(planes[f].normal.z());
-    offset_.push_back(planes[f].offset);
-    loop_begin_.push_back(static_cast<std::uint16_t>(loop_end));
+    d_.loop_begin.push_back(static_cast<std::uint16_t>(loop_end));
     for (int v : body.faces[f]) {
-      loop_.push_back(static_cast<std::uint16_t>(v));
+      d_.loop.push_back(static_cast<std::uint16_t>(v));
       bits[v * b.words + f / 64] |= std::uint64_t(1) << (f % 64);
       ++loop_end;
     }
+    for (int axis = 0; axis < 3 && b.small_faces; ++axis)
+      for (std::size_t k = 0; k < 8; ++k)
+        d_.corners.push_back(
+            body.vertices[body.faces[f][std::min(k, body.faces[f].size() - 1)]](axis));
   }
-  loop_begin_.push_back(static_cast<std::uint16_t>(loop_end));
+  d_.loop_begin.push_back(static_cast<std::uint16_t>(loop_end));
   int neighbor_end = 0;
   for (int v = 0; v < n; ++v) {
-    neighbor_begin_.push_back(static_cast<std::uint16_t>(neighbor_end));
+    d_.neighbor_begin.push_back(static_cast<std::uint16_t>(neighbor_end));
     for (int w : neighbors[v]) {
-      neighbor_.push_back(static_cast<std::uint16_t>(w));
+      d_.neighbor.push_back(static_cast<std::uint16_t>(w));
       ++neighbor_end;
     }
   }
-  neighbor_begin_.push_back(static_cast<std::uint16_t>(neighbor_end));
-  shapes_.push_back(shape);
+  d_.neighbor_begin.push_back(static_cast<std::uint16_t>(neighbor_end));
+  d_.shapes.push_back(shape);
+  renew_views();
   return size() - 1;
 }
 
-ConvexView ShapeTable::view(int s) const {
-  const Begin& b = begin_[s];
+// Views of all shapes when an array has moved, else of the new one only.
+void ShapeTable::renew_views() {
+  const std::vector<const void*> now = {
+      d_.x.data(),           d_.y.data(),    d_.z.data(),        d_.nx.data(),
+      d_.ny.data(),          d_.nz.data(),   d_.offset.data(),   d_.corners.data(),
+      d_.loop_begin.data(),  d_.loop.data(), d_.neighbor.data(), d_.neighbor_begin.data(),
+      d_.vertex_faces.data()};
+  if (now != bases_) views_.clear();
+  bases_ = now;
+  while (views_.size() < d_.begin.size()) views_.push_back(make_view(int(views_.size())));
+}
+
+ShapeTable::ShapeTable(const ShapeTable& o) : d_(o.d_) { renew_views(); }
+
+ShapeTable& ShapeTable::operator=(ShapeTable o) {
+  d_ = std::move(o.d_);
+  views_ = std::move(o.views_);
+  bases_ = std::move(o.bases_);
+  return *this;
+}
+
+ConvexView ShapeTable::make_view(int s) const {
+  const Begin& b = d_.begin[s];
   ConvexView v;
-  v.x = x_.data() + b.vertex;
-  v.y = y_.data() + b.vertex;
-  v.z = z_.data() + b.vertex;
+  v.x = d_.x.data() + b.vertex;
+  v.y = d_.y.data() + b.vertex;
+  v.z = d_.z.data() + b.vertex;
   v.vertices = b.vertices;
   v.padded = b.padded;
-  v.nx = nx_.data() + b.face;
-  v.ny = ny_.data() + b.face;
-  v.nz = nz_.data() + b.face;
-  v.offset = offset_.data() + b.face;
+  v.nx = d_.nx.data() + b.face;
+  v.ny = d_.ny.data() + b.face;
+  v.nz = d_.nz.data() + b.face;
+  v.offset = d_.offset.data() + b.face;
   v.faces = b.faces;
-  v.loop_begin = loop_begin_.data() + b.loop_begin;
-  v.loop = loop_.data() + b.loop;
-  v.radius = shapes_[s].radius;
-  v.neighbor_begin = neighbor_begin_.data() + b.neighbor_begin;
-  v.neighbor = neighbor_.data() + b.neighbor;
-  v.vertex_faces = vertex_faces_.data() + b.bits;
+  v.loop_begin = d_.loop_begin.data() + b.loop_begin;
+  v.loop = d_.loop.data() + b.loop;
+  v.radius = d_.shapes[s].radius;
+  v.neighbor_begin = d_.neighbor_begin.data() + b.neighbor_begin;
+  v.neighbor = d_.neighbor.data() + b.neighbor;
+  v.vertex_faces = d_.vertex_faces.data() + b.bits;
   v.face_words = b.words;
+  v.planes_padded = true;
+  v.corners = b.small_faces ? d_.corners.data() + b.corners : nullptr;
   return v;
 }
 

@@ -1,5 +1,5 @@
-// Shapes as the contact kernel reads them: one flat structure of arrays for all shapes,
-// vertices padded to the vector width by repeating the last one.
+// Shapes as the contact kernel reads them: one flat structure of arrays for all shapes, vertices
+// and planes padded to eight by repeating the last one.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -24,6 +24,10 @@ struct ConvexView {
   const std::uint16_t* neighbor = nullptr;
   const std::uint64_t* vertex_faces = nullptr;  ///< vertices * face_words
   int face_words = 0;
+  /// Optional: planes are padded to a multiple of eight, and each face's corners, eight x, eight y,
+  /// eight z, the last repeated (null where a face has more than eight).
+  bool planes_padded = false;
+  const double* corners = nullptr;
 };
 
 class ShapeTable {
@@ -31,20 +35,34 @@ class ShapeTable {
   /// Returns the shape's index. Throws InputError when a face has no area, an edge belongs to one
   /// face only, or there are more than 65535 vertices.
   int add(const GrainShape&);
-  ConvexView view(int shape) const;
-  int size() const { return static_cast<int>(begin_.size()); }
-  const GrainShape& shape(int s) const { return shapes_[s]; }
+  /// Valid until the next add.
+  const ConvexView& view(int shape) const { return views_[shape]; }
+  int size() const { return static_cast<int>(d_.begin.size()); }
+  const GrainShape& shape(int s) const { return d_.shapes[s]; }
+
+  ShapeTable() = default;
+  ShapeTable(const ShapeTable&);
+  ShapeTable(ShapeTable&&) = default;
+  ShapeTable& operator=(ShapeTable);
 
  private:
   struct Begin {
-    int vertex, padded, vertices, face, faces, loop_begin, loop, neighbor_begin, neighbor, bits,
-        words;
+    std::size_t vertex, face, loop_begin, loop, neighbor_begin, neighbor, bits, corners;
+    int vertices, padded, faces, words;
+    bool small_faces;
   };
-  std::vector<Begin> begin_;
-  std::vector<double> x_, y_, z_, nx_, ny_, nz_, offset_;
-  std::vector<std::uint16_t> loop_begin_, loop_, neighbor_begin_, neighbor_;
-  std::vector<std::uint64_t> vertex_faces_;
-  std::vector<GrainShape> shapes_;
+  ConvexView make_view(int shape) const;
+  void renew_views();
+
+  struct Arrays {
+    std::vector<Begin> begin;
+    std::vector<double> x, y, z, nx, ny, nz, offset, corners;
+    std::vector<std::uint16_t> loop_begin, loop, neighbor_begin, neighbor;
+    std::vector<std::uint64_t> vertex_faces;
+    std::vector<GrainShape> shapes;
+  } d_;
+  std::vector<ConvexView> views_;
+  std::vector<const void*> bases_;  ///< where the arrays were when the views were made
 };
 
 }  // namespace trackbed::dem

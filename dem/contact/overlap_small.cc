@@ -1,0 +1,250 @@
+// Clipping of bodies of ordinary size, polygons in registers; see overlap.h for the method.
+#include <array>
+
+#include "dem/contact/eight.h"
+#include "dem/contact/overlap_clip.h"
+
+namespace trackbed::dem {
+namespace {
+
+constexpr int kMost = 64;
+
+struct Side {
+  alignas(64) double x[kMost], y[kMost], z[kMost];                    // vertices
+  alignas(64) double nx[kMost], ny[kMost], nz[kMost], offset[kMost];  // planes
+  alignas(64) double px[4 * kMost], py[4 * kMost], pz[4 * kMost];     // corners of the slab's part
+  int corners = 0;
+  std::uint64_t faces = 0;  // those that reach into the slab, then those that may matter
+  double high = 0, low = 0;
+};
+
+constexpr std::uint64_t first_bits(int n) { return n >= 64 ? ~0ull : (1ull << n) - 1; }
+
+bool suitable(const ConvexView& v) {
+  return v.padded <= kMost && v.padded % 8 == 0 && v.padded >= v.vertices && v.faces <= kMost;
+}
+
+Eight row(const Mat3& M, int r, Eight x, Eight y, Eight z, Eight t) {
+  return fma(Eight(M(r, 0)), x, fma(Eight(M(r, 1)), y, fma(Eight(M(r, 2)), z, t)));
+}
+
+void vertices_to_frame(const PlacedBody& body, Side& s) {
+  const ConvexView& v = body.view;
+  const Eight tx(body.t.x()), ty(body.t.y()), tz(body.t.z());
+  Eight high(-1e300), low(1e300);
+  for (int k = 0; k < v.padded; k += 8) {
+    const Eight x = Eight::load(v.x + k), y = Eight::load(v.y + k), z = Eight::load(v.z + k);
+    const Eight w = row(body.M, 2, x, y, z, tz);
+    row(body.M, 0, x, y, z, tx).store(s.x + k);
+    row(body.M, 1, x, y, z, ty).store(s.y + k);
+    w.store(s.z + k);
+    high = max(high, w), low = min(low, w);
+  }
+  s.high = largest(high), s.low = least(low);
+}
+
+void planes_to_frame(const PlacedBody& body, Side& s) {
+  const ConvexView& v = body.view;
+  const Mat3& M = body.M;
+  if (!v.planes_padded) {
+    for (int f = 0; f < v.faces; ++f) {
+      const Vec3 n = M * Vec3(v.nx[f], v.ny[f], v.nz[f]);
+      s.nx[f] = n.x(), s.ny[f] = n.y(), s.nz[f] = n.z(), s.offset[f] = v.offset[f] + n.dot(body.t);
+    }
+    for (int f = v.faces; f % 8 != 0; ++f) s.nx[f] = s.ny[f] = s.nz[f] = s.offset[f] = 0;
+    return;
+  }
+  const Eight zero(0.0), tx(body.t.x()), ty(body.t.y()), tz(body.t.z());
+  for (int f = 0; f < v.faces; f += 8) {
+    const Eight x = Eight::load(v.nx + f), y = Eight::load(v.ny + f), z = Eight::load(v.nz + f);
+    const Eight nx = row(M, 0, x, y, z, zero), ny = row(M, 1, x, y, z, zero),
+                nz = row(M, 2, x, y, z, zero);
+    nx.store(s.nx + f), ny.store(s.ny + f), nz.store(s.nz + f);
+    fma(nx, tx, fma(ny, ty, fma(nz, tz, Eight::load(v.offset + f)))).store(s.offset + f);
+  }
+}
+
+// up = 1: the part above the cut is kept (a); up = -1: below it (b).
+template <int up>
+std::uint64_t kept_vertices(const ConvexView& v, const Side& s, double cut) {
+  std::uint64_t bits = 0;
+  for (int k = 0; k < v.padded; k += 8) {
+    const Eight z = Eight::load(s.z + k), c(cut);
+    bits |= std::uint64_t(up > 0 ? less(c, z) : less(z, c)) << k;
+  }
+  return bits & first_bits(v.vertices);
+}
+
+void add_corner(Side& s, int i) {
+  const int k = s.corners++;
+  s.px[k] = s.x[i], s.py[k] = s.y[i], s.pz[k] = s.z[i];
+}
+
+void add_crossing(Side& s, int i, int j, double cut) {
+  const int k = s.corners++;
+  const double t = (s.z[i] - cut) / (s.z[i] - s.z[j]);
+  s.px[k] = s.x[i] + t * (s.x[j] - s.x[i]), s.py[k] = s.y[i] + t * (s.y[j] - s.y[i]);
+  s.pz[k] = cut;
+}
+
+// The corners of the slab's part and the faces that reach into it.
+template <int up>
+void slab_part(const ConvexView& v, double cut, Side& s) {
+  const std::uint64_t kept = kept_vertices<up>(v, s, cut);
+  if (v.vertex_faces && v.neighbor) {
+    for (std::uint64_t rest = kept; rest; rest &= rest - 1) {
+      const int i = __builtin_ctzll(rest);
+      add_corner(s, i);
+      s.faces |= v.vertex_faces[i];
+      for (int k = v.neighbor_begin[i]; k < v.neighbor_begin[i + 1]; ++k)
+        if (!(kept >> v.neighbor[k] & 1)) add_crossing(s, i, v.neighbor[k], cut);
+    }
+    return;
+  }
+  for (std::uint64_t rest = kept; rest; rest &= rest - 1) add_corner(s, __builtin_ctzll(rest));
+  for (int f = 0; f < v.faces; ++f)
+    for (int begin = v.loop_begin[f], end = v.loop_begin[f + 1], k = begin; k < end; ++k) {
+      const int i = v.loop[k], j = v.loop[k + 1 < end ? k + 1 : begin];
+      if (!(kept >> i & 1)) continue;
+      s.faces |= 1ull << f;
+      if (!(kept >> j & 1)) add_crossing(s, i, j, cut);  // its other face sees the edge from j
+    }
+}
+
+// Leaves the faces whose planes the other body's part may reach.
+void cull_faces(Side& s, const Side& other, double slack) {
+  for (int f = 0; f < kMost; f += 8) {
+    const std::uint64_t block = s.faces >> f;
+    if (!block) break;
+    if (!(block & 255)) continue;
+    const Eight nx = Eight::load(s.nx + f), ny = Eight::load(s.ny + f), nz = Eight::load(s.nz + f);
+    const Eight offset = Eight(0.0) - Eight::load(s.offset + f);
+    Eight most(-1e300);
+    for (int c = 0; c < other.corners; ++c)
+      most = max(most, fma(nx, Eight(other.px[c]),
+                           fma(ny, Eight(other.py[c]), fma(nz, Eight(other.pz[c]), offset))));
+    s.faces &= ~(std::uint64_t(less(most, Eight(-slack))) << f);
+  }
+}
+
+struct Polygon {
+  Eight x, y, z;
+  int n;
+};
+
+// Where the corners of a clipped polygon come from: corner k lies between corners from[k] and to[k]
+// of the old one, which has n corners of which m, from s on, are kept.
+struct ClipTable {
+  std::uint64_t from[9 * 64] = {}, to[9 * 64] = {};
+  constexpr ClipTable() {
+    for (int n = 3; n <= 8; ++n)
+      for (int s = 0; s < n; ++s)
+        for (int m = 1; m < n; ++m)
+          for (int k = 0; k < 8; ++k) {
+            const int kept = k < m ? (s + k) % n : s;
+            const std::uint64_t p = k == m ? (s + m - 1) % n : kept;
+            const std::uint64_t q = k == m ? (s + m) % n : k == m + 1 ? (s + n - 1) % n : kept;
+            from[n * 64 + s * 8 + m] |= p << (8 * k);
+            to[n * 64 + s * 8 + m] |= q << (8 * k);
+          }
+  }
+};
+constexpr ClipTable kTable;
+
+// Keeps the part of the polygon at the corners of which the bits of `in` are set; d signed distance
+// to the cutting plane. False when that is not one chain or has too many corners.
+bool clip(Polygon& p, Eight d, unsigned in) {
+  const unsigned all = (1u << p.n) - 1;
+  in &= all;
+  if (in == all) return true;
+  if (in == 0) {
+    p.n = 0;
+    return true;
+  }
+  const unsigned before = (in << 1 | in >> (p.n - 1)) & all, entering = in & ~before;
+  const int s = __builtin_ctz(entering), m = __builtin_popcount(in);
+  if ((entering & (entering - 1)) || m > 6) return false;
+  const int entry = p.n * 64 + s * 8 + m;
+  const Places from(kTable.from[entry]), to(kTable.to[entry]);
+  const Eight df = pick(d, from), t = divide_where(3u << m, df, df - pick(d, to));
+  const Eight x = pick(p.x, from), y = pick(p.y, from), z = pick(p.z, from);
+  p.x = fma(t, pick(p.x, to) - x, x);
+  p.y = fma(t, pick(p.y, to) - y, y);
+  p.z = fma(t, pick(p.z, to) - z, z);
+  p.n = m + 2;
+  return true;
+}
+
+bool face_polygon(const PlacedBody& body, const Side& s, int f, Polygon& p) {
+  const ConvexView& v = body.view;
+  const int begin = v.loop_begin[f];
+  p.n = v.loop_begin[f + 1] - begin;
+  if (p.n > 8) return false;
+  if (v.corners) {
+    const double* c = v.corners + 24 * f;
+    const Eight x = Eight::load(c), y = Eight::load(c + 8), z = Eight::load(c + 16);
+    p.x = row(body.M, 0, x, y, z, Eight(body.t.x()));
+    p.y = row(body.M, 1, x, y, z, Eight(body.t.y()));
+    p.z = row(body.M, 2, x, y, z, Eight(body.t.z()));
+    return true;
+  }
+  double x[8], y[8], z[8];
+  for (int k = 0; k < 8; ++k) {
+    const int i = v.loop[begin + (k < p.n ? k : p.n - 1)];
+    x[k] = s.x[i], y[k] = s.y[i], z[k] = s.z[i];
+  }
+  p.x = Eight::load(x), p.y = Eight::load(y), p.z = Eight::load(z);
+  return true;
+}
+
+// Clips one body's faces by the other's planes and appends what is left. Where faces of both
+// coincide, a's is kept (up > 0) and b's is dropped. False: a polygon grew too large.
+template <int up>
+bool add_pieces(const PlacedBody& body, const Side& own, const Side& other, double cut,
+                OverlapWorkspace& work, std::vector<OverlapPiece>& pieces) {
+  const Eight zero(0.0);
+  for (std::uint64_t rest = own.faces; rest; rest &= rest - 1) {
+    const int f = __builtin_ctzll(rest);
+    Polygon p;
+    if (!face_polygon(body, own, f, p)) return false;
+    const Eight below = up > 0 ? Eight(cut) - p.z : p.z - Eight(cut);
+    if (!clip(p, below, less(below, zero))) return false;
+    for (std::uint64_t planes = other.faces; planes && p.n; planes &= planes - 1) {
+      const int j = __builtin_ctzll(planes);
+      double nx = other.nx[j], ny = other.ny[j], nz = other.nz[j], offset = other.offset[j];
+      if (nx * own.nx[f] + ny * own.ny[f] + nz * own.nz[f] > 1 - 1e-6) {  // see overlap.h
+        nx -= own.nx[f], ny -= own.ny[f], nz -= own.nz[f], offset -= own.offset[f];
+      }
+      const Eight d = fma(Eight(nx), p.x, fma(Eight(ny), p.y, fma(Eight(nz), p.z, Eight(-offset))));
+      if (!clip(p, d, up > 0 ? less_equal(d, zero) : less(d, zero))) return false;
+    }
+    if (p.n < 3) continue;
+    alignas(64) double x[8], y[8], z[8];
+    p.x.store(x), p.y.store(y), p.z.store(z);
+    add_piece(f, p.n, x, y, z, work, pieces);
+  }
+  return true;
+}
+
+}  // namespace
+
+Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace& work) {
+  if (!suitable(a.view) || !suitable(b.view)) return Clipped::too_large;
+  Side side_a, side_b;
+  vertices_to_frame(a, side_a);
+  vertices_to_frame(b, side_b);
+  const SlabCut cut(a, b, side_a.high, side_b.low);
+  if (!cut.overlap) return Clipped::nothing;
+  slab_part<1>(a.view, cut.a, side_a);
+  slab_part<-1>(b.view, cut.b, side_b);
+  planes_to_frame(a, side_a);
+  planes_to_frame(b, side_b);
+  cull_faces(side_a, side_b, cut.slack);
+  cull_faces(side_b, side_a, cut.slack);
+  if (!add_pieces<1>(a, side_a, side_b, cut.a, work, work.a_pieces) ||
+      !add_pieces<-1>(b, side_b, side_a, cut.b, work, work.b_pieces))
+    return Clipped::too_large;
+  return Clipped::pieces;
+}
+
+}  // namespace trackbed::dem
