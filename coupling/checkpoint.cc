@@ -17,6 +17,13 @@ void visit(A& archive, dem::Bodies& b) {
   archive("bodies/mass", b.mass), archive("bodies/inertia", b.inertia);
   archive("bodies/shape", b.shape), archive("bodies/material", b.material);
   archive("bodies/freedom", b.freedom);
+  // R follows from q, but not to the last bit in code compiled for another processor.
+  std::vector<dem::Vec3> columns;
+  for (const dem::Mat3& R : b.R) columns.insert(columns.end(), {R.col(0), R.col(1), R.col(2)});
+  archive("bodies/R", columns);
+  b.R.resize(columns.size() / 3);
+  for (std::size_t i = 0; i < b.R.size(); ++i)
+    b.R[i] << columns[3 * i], columns[3 * i + 1], columns[3 * i + 2];
 }
 
 // All shapes in one set of arrays.
@@ -141,8 +148,6 @@ void read_world(ArchiveReader& archive, World& w) {
   visit(archive, shapes);
   w.shapes = unflatten(shapes);
   visit_all(archive, w);
-  w.bodies.R.resize(w.bodies.size());
-  for (int i = 0; i < w.bodies.size(); ++i) w.bodies.R[i] = w.bodies.q[i].toRotationMatrix();
   w.pairs.index_bodies(w.bodies.size());
 }
 
