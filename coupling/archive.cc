@@ -50,6 +50,13 @@ void* single(T& value, std::size_t count) {
   return count == 1 ? &value : nullptr;
 }
 
+// Null, which is an error, unless the numbers make whole vectors.
+template <int size, class T>
+void* groups_of(std::vector<T>& v, std::size_t count) {
+  v.resize(count / size);
+  return count % size == 0 ? v.data() : nullptr;
+}
+
 }  // namespace
 
 ArchiveWriter::ArchiveWriter(const std::string& path) : path_(path), aside_(path + ".part") {
@@ -134,12 +141,10 @@ void ArchiveReader::operator()(const std::string& n, std::vector<std::uint8_t>& 
   read(file_, path_, n, H5T_NATIVE_UINT8, [&](std::size_t c) { return v.resize(c), v.data(); });
 }
 void ArchiveReader::operator()(const std::string& n, std::vector<dem::Vec3>& v) {
-  read(file_, path_, n, H5T_NATIVE_DOUBLE,
-       [&](std::size_t c) { return v.resize(c / 3), v.data(); });
+  read(file_, path_, n, H5T_NATIVE_DOUBLE, [&](std::size_t c) { return groups_of<3>(v, c); });
 }
 void ArchiveReader::operator()(const std::string& n, std::vector<dem::Quat>& v) {
-  read(file_, path_, n, H5T_NATIVE_DOUBLE,
-       [&](std::size_t c) { return v.resize(c / 4), v.data(); });
+  read(file_, path_, n, H5T_NATIVE_DOUBLE, [&](std::size_t c) { return groups_of<4>(v, c); });
 }
 
 }  // namespace trackbed::coupling

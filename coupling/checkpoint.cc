@@ -110,17 +110,17 @@ void visit(A& archive, const std::string& at, Surface& s) {
 template <class A>
 void visit_all(A& archive, World& w) {
   archive("time", w.time);
-  int step = static_cast<int>(w.step);
+  std::uint64_t step = w.step;
   archive("step", step);
-  w.step = step;
+  w.step = static_cast<long>(step);
   visit(archive, w.bodies);
   dem::for_each_array(w.pairs,
                       [&](const char* name, auto& v) { archive(std::string("pairs/") + name, v); });
   dem::Candidates::State c = w.candidates.state();
-  int rebuilds = static_cast<int>(c.rebuilds);
+  std::uint64_t rebuilds = c.rebuilds;
   archive("candidates/skin", c.skin), archive("candidates/rebuilds", rebuilds);
   archive("candidates/travel", c.travel), archive("candidates/travel_search", c.travel_search);
-  c.rebuilds = rebuilds;
+  c.rebuilds = static_cast<long>(rebuilds);
   w.candidates.restore(c);
   visit(archive, w.flows, w.start);
 }
@@ -159,7 +159,13 @@ void read_surfaces(ArchiveReader& archive, World& w) {
                      " deforming surfaces, the scene " + std::to_string(w.surfaces.size()));
   for (std::size_t k = 0; k < w.surfaces.size(); ++k) {
     Surface& s = w.surfaces[k];
+    const std::size_t nodes = s.patch.node.size(), carried = s.patch.force.size();
     visit(archive, at(k), s);
+    if (s.patch.node.size() != nodes || s.patch.velocity.size() != nodes ||
+        s.patch.force.size() != carried || s.last_force.size() != carried)
+      throw InputError("checkpoint: surface '" + s.patch.name + "' has another mesh (" +
+                       std::to_string(s.patch.node.size()) + " nodes, the scene's " +
+                       std::to_string(nodes) + ")");
     s.contacts.nodal.assign(s.contacts.size(), {});
     std::vector<double> state;
     archive(at(k) + "structure", state);

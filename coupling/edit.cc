@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace trackbed::coupling {
 namespace {
@@ -22,6 +23,14 @@ void gather_bodies(dem::Bodies& b, const std::vector<int>& order) {
   gather(b.material, order), gather(b.freedom, order);
 }
 
+// The same pair seen from its other body: a < b always.
+void turn_pair(dem::Pairs& pairs, int p) {
+  std::swap(pairs.a[p], pairs.b[p]);
+  std::swap(pairs.arm_a[p], pairs.arm_b[p]);
+  for (auto* v : {&pairs.axis, &pairs.friction, &pairs.force, &pairs.couple, &pairs.normal_force})
+    (*v)[p] = -(*v)[p];
+}
+
 }  // namespace
 
 void reorder(World& w, const std::vector<int>& order, int grains) {
@@ -36,6 +45,8 @@ void reorder(World& w, const std::vector<int>& order, int grains) {
   }
   w.candidates.restore(c);
 
+  for (Surface& s : w.surfaces) dem::renumber_grains(s.contacts, now);
+
   // Pairs that remain, by their new bodies, in the order the pair list must have.
   dem::Pairs& pairs = w.pairs;
   std::vector<int> kept;
@@ -45,6 +56,7 @@ void reorder(World& w, const std::vector<int>& order, int grains) {
   for (std::size_t p = 0; p < kept.size(); ++p) {
     pairs.a[p] = now[pairs.a[p]];
     pairs.b[p] = now[pairs.b[p]];
+    if (pairs.a[p] > pairs.b[p]) turn_pair(pairs, static_cast<int>(p));
   }
   std::vector<int> sorted(kept.size());
   std::iota(sorted.begin(), sorted.end(), 0);

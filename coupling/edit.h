@@ -1,5 +1,6 @@
 // Changing which bodies a world holds, between stages: grains dropped in, plate off, sleeper in.
-// Contact history of all pairs that remain is kept.
+// Contact history of all pairs that remain, and of grains on surfaces, is kept. Call prepare()
+// after.
 #pragma once
 #include <string>
 #include <vector>

@@ -42,7 +42,8 @@ struct SurfacePatch {
 /// leans on a wall above the border meets a surface that goes on; skirt nodes follow their border
 /// node and hand it their force. `period` (0 = none, per direction): border edges on a seam
 /// (|coordinate| = period/2) get no skirt, the patch's own image goes on there. Throws InputError
-/// for a facet without area or a patch that is folded so sharply that no shell fits behind it.
+/// for a facet without area, and for a patch that is folded so sharply, or whose facets at an edge
+/// are so small, that no shell fits behind it.
 SurfacePatch make_patch(const std::string& name, int material, const std::vector<Vec3>& nodes,
                         const std::vector<std::array<int, 4>>& quads, double shell_depth,
                         double skirt, const Vec3& period);

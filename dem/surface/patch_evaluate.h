@@ -3,9 +3,12 @@
 #pragma once
 #include <omp.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "base/error.h"
 #include "dem/contact/friction.h"
+#include "dem/contact/pair_evaluate.h"
 #include "dem/contact/pressure.h"
 #include "dem/surface/patch_forces.h"
 #include "dem/surface/shell_cell.h"
@@ -47,18 +50,43 @@ inline void release(PatchContacts& k, int i) {
   k.touching[i] = 0;
   k.friction_loss[i] = k.friction_energy[i];
   for (auto* v : {&k.friction, &k.force, &k.torque, &k.normal_force}) (*v)[i].setZero();
-  for (auto* v :
-       {&k.friction_stiffness, &k.energy, &k.friction_energy, &k.area, &k.depth, &k.stiffness})
+  for (auto* v : {&k.friction_stiffness, &k.energy, &k.friction_energy, &k.area, &k.depth,
+                  &k.stiffness, &k.tilt_stiffness})
     (*v)[i] = 0;
 }
 
+/// Adds the moments of one cell, taken about a point of its own: where a grain's face lies in a
+/// cell's side, the pieces of that (empty) overlap do not close, and only about a point in their
+/// plane are they worth nothing.
+inline void add_moments(const OverlapMoments& cell, OverlapMoments& sum) {
+  if (!(sum.volume > 0)) {
+    sum = cell;
+    return;
+  }
+  const Vec3 d = cell.about - sum.about;
+  sum.volume += cell.volume;
+  sum.first += cell.first + cell.volume * d;
+  sum.second += cell.second + cell.first * d.transpose() + d * cell.first.transpose() +
+                cell.volume * d * d.transpose();
+}
+
+/// What clipping a grain against its cells leaves besides the workspace's pieces.
+struct ClippedCells {
+  ContactFrame frame;
+  OverlapMoments moments;
+  std::vector<SurfacePiece> pieces;  ///< on the surface
+  bool through = false;              ///< the grain reaches past the bottom of the shell
+};
+
 /// Clips the grain of contact i against the cells it reaches. False: none.
-inline bool clip_cells(const Bodies& b, const ConvexView& grain, const Pose& pose,
-                       const SurfacePatch& patch, double travel, OverlapWorkspace& work,
-                       PatchContacts& k, int i, ContactFrame& frame, OverlapMoments& moments,
-                       std::vector<SurfacePiece>& pieces) {
-  bool any = false, framed = false;
-  (void)b;
+inline bool clip_cells(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
+                       double travel, OverlapWorkspace& work, PatchContacts& k, int i,
+                       ClippedCells& out) {
+  bool framed = false;
+  work.clear();
+  out.pieces.clear();
+  out.moments = OverlapMoments();
+  out.through = false;
   for (int e = k.first[i]; e < k.first[i + 1]; ++e) {
     if (travel + k.node_travel < k.wake[e]) continue;
     ShellCell cell;
@@ -74,80 +102,85 @@ inline bool clip_cells(const Bodies& b, const ConvexView& grain, const Pose& pos
     const int triangle = k.cell[e] / 3;
     if (!framed) {
       const Vec3 normal = triangle_normal(patch, triangle);
-      frame = surface_frame(lowest_vertex(grain, pose, normal), normal);
+      out.frame = surface_frame(lowest_vertex(grain, pose, normal), normal);
       framed = true;
     }
     const std::size_t before = work.b_pieces.size();
-    if (!overlap(grain, pose, cell.view, cell_pose, frame, work, moments)) {
+    OverlapMoments moments;
+    if (!overlap(grain, pose, cell.view, cell_pose, out.frame, work, moments)) {
       k.wake[e] = 0;
       continue;
     }
     k.wake[e] = kReached;
-    any = true;
-    for (std::size_t p = before; p < work.b_pieces.size(); ++p)
+    add_moments(moments, out.moments);
+    for (std::size_t p = before; p < work.b_pieces.size(); ++p) {
       if (work.b_pieces[p].face == cell.outer_face)
-        pieces.push_back({static_cast<int>(p), triangle, k.shift[e]});
+        out.pieces.push_back({static_cast<int>(p), triangle, k.shift[e]});
+      if (work.b_pieces[p].face == cell.inner_face) out.through = true;
+    }
   }
-  return any;
+  return out.moments.volume > 0;
 }
 
+/// False: the grain is deeper in the surface than its shell reaches.
 template <class Law, bool friction>
-void evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
+bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
                             const PairMaterials& materials, const StepContext& c,
                             const std::vector<double>& travel, const SurfacePatch& patch,
-                            OverlapWorkspace& work, std::vector<SurfacePiece>& pieces,
-                            PatchContacts& k, int i) {
+                            OverlapWorkspace& work, PatchContacts& k, int i) {
   const int g = k.grain[i];
   const ConvexView grain = shapes.view(b.shape[g]);
   const Pose pose{b.R[g], b.x[g]};
-  work.clear();
-  pieces.clear();
-  k.nodal[i].clear();
-  ContactFrame frame;
-  OverlapMoments moments;
-  if (!clip_cells(b, grain, pose, patch, travel[g], work, k, i, frame, moments, pieces))
-    return release(k, i);
+  static thread_local ClippedCells cells;
+  static thread_local std::vector<double> share;  // of the surface's area, per nodal force
+  std::vector<std::pair<int, Vec3>>& nodal = k.nodal[i];
+  nodal.clear();
+  share.clear();
+  const bool touches = clip_cells(grain, pose, patch, travel[g], work, k, i, cells);
+  if (!touches || cells.pieces.empty()) {
+    release(k, i);
+    return !cells.through && cells.moments.volume < 1e-3 * shapes.shape(b.shape[g]).volume;
+  }
+  const std::vector<SurfacePiece>& pieces = cells.pieces;
+  const Mat3& axes = cells.frame.axes;
 
   const PairMaterial& material = materials(b.material[g], patch.material);
-  const OverlapShape shape = make_shape(moments, work);
+  OverlapShape shape = make_shape(cells.moments, work);
+  shape.area.setZero();  // minus that of the surface inside the grain
+  for (const SurfacePiece& s : pieces) shape.area -= work.b_pieces[s.piece].area;
   const NormalResponse response = Law()(shape, material);
 
-  // Nodal forces of the pressure; what they sum to acts on the grain. Surface area per node, for
-  // friction.
-  Vec3 normal = Vec3::Zero(), area = Vec3::Zero();
+  // Nodal forces of the pressure; what they sum to acts on the grain.
+  Vec3 normal = Vec3::Zero();
   double total = 0;
-  std::vector<std::pair<int, Vec3>>& nodal = k.nodal[i];
-  static thread_local std::vector<double> share;
-  share.clear();
   for (const SurfacePiece& s : pieces) {
     const auto& t = patch.triangle[s.triangle];
     Vec3 corner[3];
     for (int j = 0; j < 3; ++j)
-      corner[j] = frame.axes.transpose() * (patch.node[t[j]] + s.shift - frame.origin);
-    const OverlapPiece& piece = work.b_pieces[s.piece];
-    const NodalForces f = nodal_pressure(work, piece, shape, response, corner);
+      corner[j] = axes.transpose() * (patch.node[t[j]] + s.shift - cells.frame.origin);
+    const NodalForces f = nodal_pressure(work, work.b_pieces[s.piece], shape, response, corner);
     for (int j = 0; j < 3; ++j) {
-      nodal.push_back({t[j], -(frame.axes * f.f[j])});
+      nodal.push_back({t[j], -(axes * f.f[j])});
       share.push_back(f.share[j]);
       total += f.share[j];
       normal -= nodal.back().second;
     }
-    area += piece.area;
   }
-  if (!(total > 0)) {  // inside the shell only: deeper than it reaches
+  if (!(total > 0)) {
     nodal.clear();
-    return release(k, i);
+    release(k, i);
+    return true;
   }
 
-  // Where the surface is touched, and how that point moves: the nodes' mean by area.
-  Vec3 point = Vec3::Zero(), velocity = Vec3::Zero();
+  // Friction's point: the centroid of the surface inside the grain.
+  Vec3 arm = Vec3::Zero(), velocity = Vec3::Zero();
   for (std::size_t j = 0; j < nodal.size(); ++j) {
-    const Vec3 shift = pieces[j / 3].shift;
-    point += share[j] / total * (patch.node[nodal[j].first] + shift - b.x[g]);
-    velocity += share[j] / total * patch.velocity[nodal[j].first];
+    const int node = nodal[j].first;
+    share[j] /= total;
+    arm += share[j] * (patch.node[node] + pieces[j / 3].shift - b.x[g]);
+    velocity += share[j] * patch.velocity[node];
   }
   const double size = normal.norm();
-  const Vec3 arm = point;
 
   Vec3 force = normal;
   if constexpr (friction) {
@@ -157,11 +190,10 @@ void evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
       ContactSlip slip{zero, zero};
       if (c.dt > 0)
         slip = contact_slip(c.dt, b.v[g], b.turn[g], old_arm, arm, velocity, zero, zero, zero);
-      result = advance_friction(material, normal / size, size, area.norm(), slip, k.friction[i],
-                                k.friction_stiffness[i]);
+      result = advance_friction(material, normal / size, size, shape.area.norm(), slip,
+                                k.friction[i], k.friction_stiffness[i]);
       force += k.friction[i];
-      for (std::size_t j = 0; j < nodal.size(); ++j)
-        nodal[j].second -= share[j] / total * k.friction[i];
+      for (std::size_t j = 0; j < nodal.size(); ++j) nodal[j].second -= share[j] * k.friction[i];
     }
     k.friction_energy[i] = result.stored;
     k.friction_loss[i] = result.dissipated;
@@ -177,9 +209,11 @@ void evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
   k.torque[i] = torque;
   k.normal_force[i] = normal;
   k.energy[i] = response.energy;
-  k.area[i] = area.norm();
+  k.area[i] = shape.area.norm();
   k.depth[i] = shape.depth;
   k.stiffness[i] = response.stiffness;
+  k.tilt_stiffness[i] = tilt_stiffness(shape, response.stiffness);
+  return !cells.through;
 }
 
 template <class Law, bool friction>
@@ -187,12 +221,19 @@ void evaluate_patch(const Bodies& b, const ShapeTable& shapes, const PairMateria
                     const StepContext& c, const std::vector<double>& travel,
                     const SurfacePatch& patch, PatchContacts& k) {
   if (static_cast<int>(k.workspaces.size()) < c.threads) k.workspaces.resize(c.threads);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(c.threads) if (c.threads > 1)
-  for (int i = 0; i < k.size(); ++i) {
-    static thread_local std::vector<SurfacePiece> pieces;
-    evaluate_patch_contact<Law, friction>(b, shapes, materials, c, travel, patch,
-                                          k.workspaces[omp_get_thread_num()], pieces, k, i);
-  }
+  int through = k.size();  // first contact of a grain that the shell cannot hold
+#pragma omp parallel for schedule(dynamic, 4) num_threads(c.threads) \
+    reduction(min                                                    \
+              : through) if (c.threads > 1)
+  for (int i = 0; i < k.size(); ++i)
+    if (!evaluate_patch_contact<Law, friction>(b, shapes, materials, c, travel, patch,
+                                               k.workspaces[omp_get_thread_num()], k, i))
+      through = std::min(through, i);
+  if (through < k.size())
+    throw RunError("grain " + std::to_string(k.grain[through]) + " goes deeper into surface '" +
+                   patch.name + "' than its contact shell of " +
+                   std::to_string(1e3 * patch.shell_depth) +
+                   " mm: the contact is too soft for its load, or the grain too fast");
 }
 
 }  // namespace trackbed::dem

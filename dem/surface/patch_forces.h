@@ -37,6 +37,7 @@ struct PatchContacts {
   std::vector<Vec3> force, torque;  ///< on the grain, torque about its centre [N], [N m]
   std::vector<Vec3> normal_force, point;
   std::vector<double> energy, friction_energy, friction_loss, area, depth, stiffness;
+  std::vector<double> tilt_stiffness;  ///< as in Pairs [N m]
 
   // Forces on nodes, per contact, of the last evaluation.
   std::vector<std::vector<std::pair<int, Vec3>>> nodal;
@@ -45,16 +46,26 @@ struct PatchContacts {
   int size() const { return static_cast<int>(grain.size()); }
 };
 
+/// The arrays with one value per cell entry, and those with one per contact.
+template <class F>
+void for_each_cell_array(PatchContacts& p, F&& f) {
+  f("cell", p.cell), f("shift", p.shift), f("axis", p.axis), f("wake", p.wake);
+}
+template <class F>
+void for_each_contact_array(PatchContacts& p, F&& f) {
+  f("grain", p.grain), f("friction", p.friction), f("arm", p.arm);
+  f("friction_stiffness", p.friction_stiffness), f("touching", p.touching);
+  f("force", p.force), f("torque", p.torque), f("normal_force", p.normal_force);
+  f("point", p.point), f("energy", p.energy), f("friction_energy", p.friction_energy);
+  f("friction_loss", p.friction_loss), f("area", p.area), f("depth", p.depth);
+  f("stiffness", p.stiffness), f("tilt_stiffness", p.tilt_stiffness);
+}
 /// As for Pairs: all that a checkpoint must hold.
 template <class F>
 void for_each_array(PatchContacts& p, F&& f) {
-  f("grain", p.grain), f("first", p.first), f("cell", p.cell), f("shift", p.shift);
-  f("axis", p.axis), f("wake", p.wake);
-  f("friction", p.friction), f("arm", p.arm), f("friction_stiffness", p.friction_stiffness);
-  f("touching", p.touching), f("force", p.force), f("torque", p.torque);
-  f("normal_force", p.normal_force), f("point", p.point), f("energy", p.energy);
-  f("friction_energy", p.friction_energy), f("friction_loss", p.friction_loss);
-  f("area", p.area), f("depth", p.depth), f("stiffness", p.stiffness);
+  f("first", p.first);
+  for_each_cell_array(p, f);
+  for_each_contact_array(p, f);
 }
 
 /// Searches the cells near each grain (boxes grown by `reach` [m]); history of contacts that stay
@@ -62,11 +73,15 @@ void for_each_array(PatchContacts& p, F&& f) {
 void search_patch(const Bodies&, const ShapeTable&, const SurfacePatch&, const StepContext&,
                   double reach, PatchContacts&);
 
+/// After bodies were put in another order: grain i is now grain now[i], or gone where that is -1.
+void renumber_grains(PatchContacts&, const std::vector<int>& now);
+
 using EvaluatePatch = void (*)(const Bodies&, const ShapeTable&, const PairMaterials&,
                                const StepContext&, const std::vector<double>& travel,
                                const SurfacePatch&, PatchContacts&);
 
 /// Evaluation by the law's name, as make_pair_forces. Throws InputError naming the laws there are.
+/// The evaluation throws RunError naming a grain that reaches past the bottom of the shell.
 EvaluatePatch make_patch_forces(const std::string& law, bool friction);
 
 /// Adds the contacts' forces to the grains and writes SurfacePatch::force, both in fixed order.

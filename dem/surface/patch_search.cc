@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
 
 #include "dem/surface/patch_forces.h"
 #include "dem/surface/shell_cell.h"
@@ -44,52 +44,108 @@ void for_each_image(const Box& cell, const Box& grain, const Vec3& period, F&& f
     }
 }
 
-struct Memory {  // of one cell entry of a contact
-  Vec3 axis;
-  double wake;
+// Finds the triangles whose part of the shell meets a box: sorted by their low side along the
+// patch's longest direction, so that a bisection leaves a strip of them.
+class TriangleFinder {
+ public:
+  explicit TriangleFinder(const SurfacePatch& patch) {
+    const int triangles = static_cast<int>(patch.triangle.size());
+    cells_.resize(3 * triangles);
+    for (int k = 0; k < 3 * triangles; ++k) {
+      for (const Vec3& p : cell_corners(patch, k)) cells_[k].include(p);
+      whole_.include(cells_[k].low), whole_.include(cells_[k].high);
+    }
+    (whole_.high - whole_.low).maxCoeff(&along_);
+    for (int t = 0; t < triangles; ++t) {
+      double low = cells_[3 * t].low[along_], high = cells_[3 * t].high[along_];
+      for (int c = 1; c < 3; ++c) {
+        low = std::min(low, cells_[3 * t + c].low[along_]);
+        high = std::max(high, cells_[3 * t + c].high[along_]);
+      }
+      sorted_.push_back({low, t});
+      widest_ = std::max(widest_, high - low);
+    }
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+
+  struct Hit {
+    int cell, image;
+    bool operator<(const Hit& o) const { return cell != o.cell ? cell < o.cell : image < o.image; }
+  };
+
+  /// Cells that meet the grain's box, in rising order, and the images they are in.
+  void find(const Box& grain, const Vec3& period, std::vector<Hit>& hits,
+            std::vector<Vec3>& images) const {
+    hits.clear();
+    images.clear();
+    for_each_image(whole_, grain, period, [&](const Vec3& shift) {
+      const double low = grain.low[along_] - shift[along_] - widest_,
+                   high = grain.high[along_] - shift[along_];
+      for (auto s = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(low, -1));
+           s != sorted_.end() && s->first <= high; ++s)
+        for (int cell = 3 * s->second; cell < 3 * s->second + 3; ++cell)
+          if (cells_[cell].meets(grain, shift))
+            hits.push_back({cell, static_cast<int>(images.size())});
+      images.push_back(shift);
+    });
+    std::sort(hits.begin(), hits.end());
+  }
+
+ private:
+  std::vector<Box> cells_;
+  Box whole_;
+  int along_ = 0;
+  double widest_ = 0;
+  std::vector<std::pair<double, int>> sorted_;  // low side, triangle
 };
+
+template <class T>
+void gather(std::vector<T>& v, const std::vector<int>& order) {
+  std::vector<T> picked;
+  picked.reserve(order.size());
+  for (const int i : order) picked.push_back(v[i]);
+  v.swap(picked);
+}
+
+// Entry of a cell's image in a contact of the last search, -1 if it is new.
+int find_entry(const PatchContacts& old, int contact, int cell, const Vec3& shift) {
+  if (contact < 0) return -1;
+  const auto begin = old.cell.begin();
+  const auto end = begin + old.first[contact + 1];
+  for (auto c = std::lower_bound(begin + old.first[contact], end, cell); c != end && *c == cell;
+       ++c)
+    if (old.shift[c - begin] == shift) return static_cast<int>(c - begin);
+  return -1;
+}
 
 }  // namespace
 
 void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch& patch,
                   const StepContext& c, double reach, PatchContacts& contacts) {
-  const int cells = 3 * static_cast<int>(patch.triangle.size());
-  std::vector<Box> boxes(cells);
-  Box whole;
-  for (int k = 0; k < cells; ++k) {
-    for (const Vec3& p : cell_corners(patch, k)) boxes[k].include(p);
-    whole.include(boxes[k].low), whole.include(boxes[k].high);
-  }
-
+  const TriangleFinder finder(patch);
   PatchContacts old = std::move(contacts);
   contacts = PatchContacts{};
   contacts.node_travel = contacts.searched_at = old.node_travel;
   contacts.workspaces = std::move(old.workspaces);
-  std::map<int, int> old_index;
-  for (int k = 0; k < old.size(); ++k) old_index[old.grain[k]] = k;
+  std::vector<int> old_contact(b.grains, -1);
+  for (int k = 0; k < old.size(); ++k) old_contact[old.grain[k]] = k;
 
+  std::vector<TriangleFinder::Hit> hits;
+  std::vector<Vec3> images;
   for (int i = 0; i < b.grains; ++i) {
-    const Box grain = grain_box(b, shapes, i, reach);
-    bool near = false;
-    for_each_image(whole, grain, c.period, [&](const Vec3&) { near = true; });
-    if (!near) continue;
-    const auto found = old_index.find(i);
-    const int before = found == old_index.end() ? -1 : found->second;
-    const int first = static_cast<int>(contacts.cell.size());
-    for (int k = 0; k < cells; ++k)
-      for_each_image(boxes[k], grain, c.period, [&](const Vec3& shift) {
-        contacts.cell.push_back(k);
-        contacts.shift.push_back(shift);
-        Memory memory{Vec3::Zero(), 0};
-        if (before >= 0)
-          for (int e = old.first[before]; e < old.first[before + 1]; ++e)
-            if (old.cell[e] == k && old.shift[e] == shift) memory = {old.axis[e], old.wake[e]};
-        contacts.axis.push_back(memory.axis);
-        contacts.wake.push_back(memory.wake);
-      });
-    if (static_cast<int>(contacts.cell.size()) == first) continue;
+    finder.find(grain_box(b, shapes, i, reach), c.period, hits, images);
+    if (hits.empty()) continue;
+    const int before = old_contact[i];
     contacts.grain.push_back(i);
-    contacts.first.push_back(first);
+    contacts.first.push_back(static_cast<int>(contacts.cell.size()));
+    for (const auto& hit : hits) {
+      const Vec3& shift = images[hit.image];
+      const int entry = find_entry(old, before, hit.cell, shift);
+      contacts.cell.push_back(hit.cell);
+      contacts.shift.push_back(shift);
+      contacts.axis.push_back(entry < 0 ? Vec3(Vec3::Zero()) : old.axis[entry]);
+      contacts.wake.push_back(entry < 0 ? 0 : old.wake[entry]);
+    }
     const auto carry = [&](auto& to, const auto& from, auto fresh) {
       to.push_back(before >= 0 ? from[before] : fresh);
     };
@@ -108,9 +164,29 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
     carry(contacts.area, old.area, 0.0);
     carry(contacts.depth, old.depth, 0.0);
     carry(contacts.stiffness, old.stiffness, 0.0);
+    carry(contacts.tilt_stiffness, old.tilt_stiffness, 0.0);
   }
   contacts.first.push_back(static_cast<int>(contacts.cell.size()));
   contacts.nodal.assign(contacts.size(), {});
+}
+
+void renumber_grains(PatchContacts& contacts, const std::vector<int>& now) {
+  std::vector<int> kept;  // contacts in the order of their grains' new numbers
+  for (int k = 0; k < contacts.size(); ++k)
+    if (now[contacts.grain[k]] >= 0) kept.push_back(k);
+  std::sort(kept.begin(), kept.end(),
+            [&](int i, int j) { return now[contacts.grain[i]] < now[contacts.grain[j]]; });
+  std::vector<int> entries, first;
+  for (const int k : kept) {
+    first.push_back(static_cast<int>(entries.size()));
+    for (int e = contacts.first[k]; e < contacts.first[k + 1]; ++e) entries.push_back(e);
+  }
+  first.push_back(static_cast<int>(entries.size()));
+  for_each_cell_array(contacts, [&](const char*, auto& v) { gather(v, entries); });
+  for_each_contact_array(contacts, [&](const char*, auto& v) { gather(v, kept); });
+  gather(contacts.nodal, kept);
+  contacts.first = first;
+  for (int& g : contacts.grain) g = now[g];
 }
 
 int count_contacts(const PatchContacts& contacts) {

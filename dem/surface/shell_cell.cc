@@ -35,7 +35,8 @@ void make_shell_cell(const SurfacePatch& patch, int cell, const Vec3& shift, She
   std::array<Vec3, 4> v = cell_corners(patch, cell);
   const Vec3 base = v[0];
   for (Vec3& p : v) p -= base;
-  if (v[1].cross(v[2]).dot(v[3]) < 0) std::swap(v[0], v[1]);
+  const bool mirrored = v[1].cross(v[2]).dot(v[3]) < 0;
+  if (mirrored) std::swap(v[0], v[1]);
   out.origin = base + shift;
   double radius2 = 0;
   for (int i = 0; i < 8; ++i) {
@@ -49,8 +50,10 @@ void make_shell_cell(const SurfacePatch& patch, int cell, const Vec3& shift, She
     out.nx[f] = n.x(), out.ny[f] = n.y(), out.nz[f] = n.z();
     out.offset[f] = n.dot(p);
   }
-  // Corner 3 of the first cell is the only inner one, so its opposite face is the surface.
+  // Corner 3 of the first cell is the only inner one, so its opposite face is the surface; corner 0
+  // (1 if swapped) of the last cell the only outer one.
   out.outer_face = cell % 3 == 0 ? 0 : -1;
+  out.inner_face = cell % 3 == 2 ? (mirrored ? 2 : 3) : -1;
   ConvexView& view = out.view;
   view.x = out.x, view.y = out.y, view.z = out.z;
   view.vertices = 4, view.padded = 8;

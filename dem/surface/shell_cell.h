@@ -15,6 +15,7 @@ struct ShellCell {
   Vec3 origin;
   ConvexView view;
   int outer_face = -1;  ///< the face that lies on the surface, -1 if none
+  int inner_face = -1;  ///< the face that lies on the bottom of the shell, -1 if none
 
   ShellCell() = default;
   ShellCell(const ShellCell&) = delete;

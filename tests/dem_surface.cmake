@@ -1,0 +1,12 @@
+# Grains on deforming surfaces. `surface_scene.h` is shared.
+function(surface_test name label)
+  trackbed_test(${name} ${label} trackbed_dem)
+  target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+endfunction()
+
+surface_test(surface_patch unit)
+surface_test(surface_energy verification)
+
+add_executable(surface_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/surface_benchmark.cc)
+target_link_libraries(surface_benchmark PRIVATE trackbed_dem)
+target_include_directories(surface_benchmark PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
