@@ -115,13 +115,12 @@ void add_edge(Integrals& sum, const Polyhedron& body, const Edge& edge, const Ve
                 r * r * r * r / 4 * edge.length * mm;
 }
 
-// Integrals of 1, m, m m' over the normal cone of one vertex, a spherical polygon whose sides are
-// the arcs of its edges. With b the inward normal of a side's plane (the edge's direction) and
-// <m>_arc the integral along the arc:  <m> = sum t b / 2,  <m m'> = (w 1 + sum b <m>_arc') / 3.
+// Integrals of 1 and m over the normal cone of one vertex, a spherical polygon whose sides are the
+// arcs of its edges: <m> = sum t b / 2, b the inward normal of a side's plane (the edge's
+// direction). <m m'> is needed of all cones together only: they fill the sphere, 4/3 pi 1.
 struct Cone {
   double angle = 0;
   Vec3 first = Vec3::Zero();
-  Mat3 second = Mat3::Zero();
 };
 
 std::vector<Cone> normal_cones(const Polyhedron& body, const Surface& s) {
@@ -131,8 +130,6 @@ std::vector<Cone> normal_cones(const Polyhedron& body, const Surface& s) {
     for (int v : body.faces[f]) middle[v] += s.normal[f];
   for (const Edge& edge : s.edges) {
     const Vec3 &n = s.normal[edge.left], &m = s.normal[edge.right];
-    const double half = std::sin(edge.turn / 2);
-    const Vec3 arc = std::sin(edge.turn) * n + 2 * half * half * edge.direction.cross(n);
     for (int end = 0; end < 2; ++end) {
       const int v = end ? edge.to : edge.from;
       // Seen from outside, the arc runs from n to m anticlockwise about the edge's far end.
@@ -141,12 +138,7 @@ std::vector<Cone> normal_cones(const Polyhedron& body, const Surface& s) {
       Cone& cone = cones[v];
       cone.angle += 2 * std::atan2(c.dot(a.cross(b)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
       cone.first += edge.turn / 2 * inward;
-      cone.second += inward * arc.transpose() / 3;
     }
-  }
-  for (Cone& cone : cones) {
-    cone.second = (0.5 * (cone.second + cone.second.transpose())).eval();
-    cone.second += cone.angle / 3 * Mat3::Identity();
   }
   return cones;
 }
@@ -155,8 +147,7 @@ void add_vertex(Integrals& sum, const Cone& cone, const Vec3& p, double r) {
   const double r3 = r * r * r;
   sum.volume += r3 / 3 * cone.angle;
   sum.first += r3 / 3 * cone.angle * p + r3 * r / 4 * cone.first;
-  sum.second += r3 / 3 * cone.angle * p * p.transpose() + r3 * r / 4 * both_ways(p, cone.first) +
-                r3 * r * r / 5 * cone.second;
+  sum.second += r3 / 3 * cone.angle * p * p.transpose() + r3 * r / 4 * both_ways(p, cone.first);
 }
 
 Integrals integrals(const DilatedPolyhedron& body, const Surface& s, const Vec3& o) {
@@ -170,6 +161,7 @@ Integrals integrals(const DilatedPolyhedron& body, const Surface& s, const Vec3&
   const auto cones = normal_cones(body.core, s);
   for (size_t v = 0; v < cones.size(); ++v)
     add_vertex(sum, cones[v], body.core.vertices[v] - o, body.radius);
+  sum.second += 4 * M_PI / 15 * std::pow(body.radius, 5) * Mat3::Identity();
   return sum;
 }
 

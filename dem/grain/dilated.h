@@ -23,8 +23,9 @@ double dilated_volume(const DilatedPolyhedron&);
 /// face (area A, first moment a, second B, normal n)   r B + r^2/2 (a n' + n a') + r^3/3 A n n';
 /// of an edge (length L, first moment a, second B, exterior angle t, m the unit vectors between the
 /// two normals)   r^2/2 t B + r^3/3 (a <m>' + <m> a') + r^4/4 L <m m'>;   of a vertex p (solid
-/// angle w of its normal cone)   r^3/3 w p p' + r^4/4 (p <m>' + <m> p') + r^5/5 <m m'>;   <.>
-/// integrals over angle or solid angle. Throws InputError: radius negative or not finite, no solid.
+/// angle w of its normal cone)   r^3/3 w p p' + r^4/4 (p <m>' + <m> p');   of all vertices together
+/// 4/15 pi r^5 1. <.> are integrals over angle or solid angle. Throws InputError: radius negative
+/// or not finite, no solid.
 MassProperties mass_properties(const DilatedPolyhedron&);
 
 }  // namespace trackbed::dem
