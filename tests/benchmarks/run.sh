@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# tests/benchmarks/run.sh [SCENE.prm]
+# Builds what is out of date and prints every benchmark: the contact kernel, grain motion, surfaces,
+# a structure's step, and the settled bed of a scene (the ballast box if none is named).
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+source "$root/cmake/setup.sh"
+install_packages
+configure
+build_targets
+printf '\n# Contact kernel\n' && "$build/tests/contact_benchmark"
+printf '\n# Grains in motion\n' && "$build/tests/motion_benchmark"
+printf '\n# A structure'\''s step\n' && "$build/tests/fem_step_benchmark"
+printf '\n# Grains on a deforming surface\n' && "$build/tests/surface_benchmark"
+printf '\n# The settled bed\n'
+/usr/bin/python3 "$root/tests/benchmarks/bed.py" "$build/trackbed" "${1:-$root/apps/scenes/ballast_box.prm}"
