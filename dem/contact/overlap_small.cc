@@ -2,21 +2,10 @@
 #include <array>
 
 #include "dem/contact/eight.h"
-#include "dem/contact/overlap_clip.h"
+#include "dem/contact/overlap_simple.h"
 
 namespace trackbed::dem {
 namespace {
-
-constexpr int kMost = 64;
-
-struct Side {
-  alignas(64) double x[kMost], y[kMost], z[kMost];                    // vertices
-  alignas(64) double nx[kMost], ny[kMost], nz[kMost], offset[kMost];  // planes
-  alignas(64) double px[4 * kMost], py[4 * kMost], pz[4 * kMost];     // corners of the slab's part
-  int corners = 0;
-  std::uint64_t faces = 0;  // those that reach into the slab, then those that may matter
-  double high = 0, low = 0;
-};
 
 constexpr std::uint64_t first_bits(int n) { return n >= 64 ? ~0ull : (1ull << n) - 1; }
 
@@ -90,7 +79,7 @@ void add_crossing(Side& s, int i, int j, double cut) {
 // The corners of the slab's part and the faces that reach into it.
 template <int up>
 void slab_part(const ConvexView& v, double cut, Side& s) {
-  const std::uint64_t kept = kept_vertices<up>(v, s, cut);
+  const std::uint64_t kept = s.kept = kept_vertices<up>(v, s, cut);
   if (v.vertex_faces && v.neighbor) {
     for (std::uint64_t rest = kept; rest; rest &= rest - 1) {
       const int i = __builtin_ctzll(rest);
@@ -153,7 +142,7 @@ constexpr ClipTable kTable;
 
 // Keeps the part of the polygon at the corners of which the bits of `in` are set; d signed distance
 // to the cutting plane. False when that is not one chain or has too many corners.
-bool clip(Polygon& p, Eight d, unsigned in) {
+[[gnu::always_inline]] inline bool clip(Polygon& p, Eight d, unsigned in) {
   const unsigned all = (1u << p.n) - 1;
   in &= all;
   if (in == all) return true;
@@ -175,7 +164,8 @@ bool clip(Polygon& p, Eight d, unsigned in) {
   return true;
 }
 
-bool face_polygon(const PlacedBody& body, const Side& s, int f, Polygon& p) {
+[[gnu::always_inline]] inline bool face_polygon(const PlacedBody& body, const Side& s, int f,
+                                                Polygon& p) {
   const ConvexView& v = body.view;
   const int begin = v.loop_begin[f];
   p.n = v.loop_begin[f + 1] - begin;
@@ -241,6 +231,7 @@ Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace& w
   planes_to_frame(b, side_b);
   cull_faces(side_a, side_b, cut.slack);
   cull_faces(side_b, side_a, cut.slack);
+  if (clip_simple(a, side_a, b, side_b, work)) return Clipped::pieces;
   if (!add_pieces<1>(a, side_a, side_b, cut.a, work, work.a_pieces) ||
       !add_pieces<-1>(b, side_b, side_a, cut.b, work, work.b_pieces))
     return Clipped::too_large;

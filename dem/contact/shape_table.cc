@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -34,6 +33,23 @@ Plane plane_of(const Polyhedron& body, const std::vector<int>& face) {
   return {normal, normal.dot(origin) + normal.dot(mean) / double(face.size())};
 }
 
+// A face at a vertex: its loop runs before, vertex, next.
+struct Corner {
+  int next, face, before;
+};
+
+// Puts the corners of one vertex in order: each one's `before` is the following one's `next`.
+void sort_around(std::vector<Corner>& corners) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::size_t wanted = (k + 1) % corners.size();
+    std::size_t found = wanted;
+    while (found < corners.size() && corners[found].next != corners[k].before) ++found;
+    if (found == corners.size() || (wanted == 0 && found != 0))
+      throw InputError("shape: an edge does not belong to exactly two faces");
+    std::swap(corners[wanted], corners[found]);
+  }
+}
+
 }  // namespace
 
 int ShapeTable::add(const GrainShape& shape) {
@@ -47,18 +63,18 @@ int ShapeTable::add(const GrainShape& shape) {
     throw InputError("shape: more than 65535 vertices: " + std::to_string(n));
 
   std::vector<Plane> planes;
-  std::vector<std::set<int>> neighbors(n);
-  for (const auto& face : body.faces) {
-    if (face.size() < 3) throw InputError("shape: a face has fewer than 3 vertices");
+  std::vector<std::vector<Corner>> corner_at(n);
+  for (int f = 0; f < faces; ++f) {
+    const std::vector<int>& face = body.faces[f];
+    const int m = static_cast<int>(face.size());
+    if (m < 3) throw InputError("shape: a face has fewer than 3 vertices");
     for (int v : face)
       if (v < 0 || v >= n) throw InputError("shape: a face names a vertex that does not exist");
     planes.push_back(plane_of(body, face));
-    for (std::size_t k = 0; k < face.size(); ++k)
-      neighbors[face[k]].insert(face[(k + 1) % face.size()]);
+    for (int k = 0; k < m; ++k)
+      corner_at[face[k]].push_back({face[(k + 1) % m], f, face[(k + m - 1) % m]});
   }
-  for (int v = 0; v < n; ++v)
-    for (int w : neighbors[v])
-      if (!neighbors[w].count(v)) throw InputError("shape: an edge belongs to one face only");
+  for (std::vector<Corner>& corners_of : corner_at) sort_around(corners_of);
 
   Begin b;
   b.vertex = d_.x.size();
@@ -109,8 +125,9 @@ int ShapeTable::add(const GrainShape& shape) {
   int neighbor_end = 0;
   for (int v = 0; v < n; ++v) {
     d_.neighbor_begin.push_back(static_cast<std::uint16_t>(neighbor_end));
-    for (int w : neighbors[v]) {
-      d_.neighbor.push_back(static_cast<std::uint16_t>(w));
+    for (const Corner& c : corner_at[v]) {
+      d_.neighbor.push_back(static_cast<std::uint16_t>(c.next));
+      d_.left_face.push_back(static_cast<std::uint16_t>(c.face));
       ++neighbor_end;
     }
   }
@@ -122,11 +139,20 @@ int ShapeTable::add(const GrainShape& shape) {
 
 // Views of all shapes when an array has moved, else of the new one only.
 void ShapeTable::renew_views() {
-  const std::vector<const void*> now = {
-      d_.x.data(),           d_.y.data(),    d_.z.data(),        d_.nx.data(),
-      d_.ny.data(),          d_.nz.data(),   d_.offset.data(),   d_.corners.data(),
-      d_.loop_begin.data(),  d_.loop.data(), d_.neighbor.data(), d_.neighbor_begin.data(),
-      d_.vertex_faces.data()};
+  const std::vector<const void*> now = {d_.x.data(),
+                                        d_.y.data(),
+                                        d_.z.data(),
+                                        d_.nx.data(),
+                                        d_.ny.data(),
+                                        d_.nz.data(),
+                                        d_.offset.data(),
+                                        d_.corners.data(),
+                                        d_.loop_begin.data(),
+                                        d_.loop.data(),
+                                        d_.neighbor.data(),
+                                        d_.left_face.data(),
+                                        d_.neighbor_begin.data(),
+                                        d_.vertex_faces.data()};
   if (now != bases_) views_.clear();
   bases_ = now;
   while (views_.size() < d_.begin.size()) views_.push_back(make_view(int(views_.size())));
@@ -159,6 +185,7 @@ ConvexView ShapeTable::make_view(int s) const {
   v.radius = d_.shapes[s].radius;
   v.neighbor_begin = d_.neighbor_begin.data() + b.neighbor_begin;
   v.neighbor = d_.neighbor.data() + b.neighbor;
+  v.left_face = d_.left_face.data() + b.neighbor;
   v.vertex_faces = d_.vertex_faces.data() + b.bits;
   v.face_words = b.words;
   v.planes_padded = true;

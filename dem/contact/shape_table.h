@@ -19,9 +19,11 @@ struct ConvexView {
   const std::uint16_t* loop = nullptr;        ///< vertex indices, counter-clockwise from outside
   double radius = 0;                          ///< about the body's origin
   /// Optional (null in views made by hand, which then take a slower way): the vertices each vertex
-  /// has an edge to, and the faces of each vertex as bits of `face_words` 64-bit words.
+  /// has an edge to, clockwise seen from outside, the face left of each such edge v -> w (its loop
+  /// runs v, w; it lies between this neighbour and the next), and the faces of each vertex as bits
+  /// of `face_words` 64-bit words.
   const std::uint16_t* neighbor_begin = nullptr;  ///< vertices+1 entries into neighbor
-  const std::uint16_t* neighbor = nullptr;
+  const std::uint16_t *neighbor = nullptr, *left_face = nullptr;
   const std::uint64_t* vertex_faces = nullptr;  ///< vertices * face_words
   int face_words = 0;
   /// Optional: planes are padded to a multiple of eight, and each face's corners, eight x, eight y,
@@ -57,7 +59,7 @@ class ShapeTable {
   struct Arrays {
     std::vector<Begin> begin;
     std::vector<double> x, y, z, nx, ny, nz, offset, corners;
-    std::vector<std::uint16_t> loop_begin, loop, neighbor_begin, neighbor;
+    std::vector<std::uint16_t> loop_begin, loop, neighbor_begin, neighbor, left_face;
     std::vector<std::uint64_t> vertex_faces;
     std::vector<GrainShape> shapes;
   } d_;

@@ -1,0 +1,35 @@
+// Inside clip_small: the two commonest overlaps need no polygon clipping.
+//
+//   vertex in face: vertex v of one body inside the other, all its edges leave through one plane:
+//     the overlap is the cone from v to the points where they do.
+//   edge on edge: an edge of a enters and leaves b through b's faces j, k; their common edge enters
+//     and leaves a through the two faces at a's edge: the overlap is the tetrahedron of the four
+//     points.
+//
+// In both the points lie in both bodies, and the planes named bound nothing larger: so the overlap
+// is exact. When neither holds, a plane is met at a grazing angle, or the points are not clear of
+// each other's planes by more than rounding (a tetrahedron turned inside out), the caller clips
+// polygons.
+#pragma once
+#include "dem/contact/overlap_clip.h"
+
+namespace trackbed::dem {
+
+constexpr int kMost = 64;
+
+/// A body of at most 64 vertices and faces in frame coordinates, and its part in the slab.
+struct Side {
+  alignas(64) double x[kMost], y[kMost], z[kMost];                    // vertices
+  alignas(64) double nx[kMost], ny[kMost], nz[kMost], offset[kMost];  // planes
+  alignas(64) double px[4 * kMost], py[4 * kMost], pz[4 * kMost];     // corners of the slab's part
+  int corners = 0;
+  std::uint64_t kept = 0;   // vertices in the slab
+  std::uint64_t faces = 0;  // those that reach into the slab, then those that may matter
+  double high = 0, low = 0;
+};
+
+/// Appends the pieces and returns true if the overlap is one of the two kinds.
+bool clip_simple(const PlacedBody& a, const Side&, const PlacedBody& b, const Side&,
+                 OverlapWorkspace&);
+
+}  // namespace trackbed::dem
