@@ -32,9 +32,10 @@ void print_effects(const Plan& plan) {
 }
 
 void print_stages(const Plan& plan) {
-  std::printf("\nStage               at most [s]  time step [s]       steps\n");
+  std::printf("\nStage               usually [s]  at most [s]  time step [s]       steps\n");
   for (const auto& s : plan.stages)
-    std::printf("%-18s %12.4g %14.2e %11.0f\n", s.name.c_str(), s.duration, s.time_step, s.steps);
+    std::printf("%-18s %12.4g %12.4g %14.2e %11.0f\n", s.name.c_str(), s.duration, s.longest,
+                s.time_step, s.steps);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ int check_command(const CheckOptions& options) {
   print_grains(scene, plan);
   print_effects(plan);
   print_stages(plan);
-  std::printf("\nEstimates, from the scene alone: memory %.0f MB, computing %s with %d thread%s.\n",
+  std::printf("\nEstimates: memory %.0f MB, computing %s with %d thread%s.\n",
               1e-6 * plan.memory, duration_text(plan.seconds).c_str(), threads,
               threads == 1 ? "" : "s");
   std::printf("The scene is valid; nothing was run.\n");

@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/grain_estimate.h"
-#include "apps/trackbed/layers.h"
-#include "apps/trackbed/mesh_names.h"
-#include "apps/trackbed/parameters.h"
 #include "base/error.h"
 #include "dem/grading/curve.h"
 
@@ -91,6 +87,8 @@ void check_sleeper(const Check& c) {
                                   "; at most Container/Width = " + metres(box.width));
   if (s.elements.size() != 3)
     c.refuse("Sleeper/Elements", "three numbers are needed, in x, y and z");
+  for (const double n : s.elements)
+    if (n != std::floor(n)) c.refuse("Sleeper/Elements", "whole numbers are needed");
   if (s.pad_thickness >= s.height)
     c.refuse("Sleeper/Pad thickness", "less than Sleeper/Height = " + metres(s.height));
   if (s.seats.empty()) c.refuse("Sleeper/Seats", "at least one rail seat is needed");
@@ -109,11 +107,15 @@ void check_sleeper(const Check& c) {
     std::sort(given.begin(), given.end());
     if (mirrored != given)
       c.refuse("Sleeper/Seats", "Container/Half by symmetry needs seats that mirror each other");
+    if (given.size() > 1 && std::any_of(given.begin(), given.end(), [&](double x) {
+          return std::abs(x) < 0.5 * s.seat_length;
+        }))
+      c.refuse("Sleeper/Seats", "Container/Half by symmetry cuts one seat of several in two");
   }
   if (s.vertical_only && s.model != "rigid")
     c.refuse("Sleeper/Vertical only", "holds for Sleeper/Model = rigid only");
-  if (!s.mesh.empty() && s.model == "rigid")
-    c.refuse("Sleeper/Mesh", "is used only with Sleeper/Model = elastic");
+  if (!s.mesh.empty() && s.pad_thickness > 0)
+    c.refuse("Sleeper/Pad thickness", "a pad is made with a block only, not with Sleeper/Mesh");
 }
 
 void check_shoulder(const Check& c) {
@@ -124,35 +126,6 @@ void check_shoulder(const Check& c) {
   if (toe > 0.5 * box.length)
     c.refuse("Container/Length", "the shoulder's toe lies at x = " + metres(toe) + "; at least " +
                                      metres(2 * toe) + " are needed");
-}
-
-void check_subgrade(const Check& c) {
-  const auto& s = c.scene.subgrade;
-  if (s.model == "rigid") return;
-  if (!s.elements.empty() && s.elements.size() != 2)
-    c.refuse("Subgrade/Elements", "two numbers are needed, in x and y, or none");
-  if (s.layers.empty()) return;
-  double thickness = 0;
-  std::string fault;
-  for (const auto& layer : parse_layers(s.layers, fault)) thickness += layer.thickness;
-  if (!fault.empty()) c.refuse("Subgrade/Layers", fault);
-  if (std::abs(thickness - s.depth) > 1e-9 * s.depth)
-    c.refuse("Subgrade/Layers", "the layers are " + metres(thickness) +
-                                    " thick together, Subgrade/Depth is " + metres(s.depth));
-}
-
-/// The boundaries are those of a block: each is held, loaded or touched by grains.
-void check_mesh(const Check& c, const std::string& path) {
-  const std::string& mesh = c.values.text(path);
-  if (mesh.empty()) return;
-  if (!std::filesystem::is_regular_file(mesh))
-    c.refuse(path, "no such file (a mesh is looked for next to the scene's file)");
-  const auto names = physical_surfaces(mesh);
-  for (const char* needed : {"bottom", "top", "x_min", "x_max", "y_min", "y_max"})
-    if (std::find(names.begin(), names.end(), needed) == names.end())
-      c.refuse(path, std::string("has no physical surface '") + needed +
-                         "'; needed are bottom, top, x_min, x_max, y_min and y_max, the file has " +
-                         (names.empty() ? "none" : join_names(names)));
 }
 
 void check_loading(const Check& c) {
@@ -182,9 +155,6 @@ void check_scene(const Scene& scene, const ParameterValues& values) {
   check_shoulder(check);
   check_densities(check);
   check_gradation(check);
-  check_subgrade(check);
-  check_mesh(check, "Sleeper/Mesh");
-  check_mesh(check, "Subgrade/Mesh");
   check_loading(check);
 }
 

@@ -3,6 +3,7 @@
 #include "dem/grading/curve.h"
 #include "dem/grading/sieve_size.h"
 #include "dem/grain/library.h"
+#include "fem/subgrades/registry.h"
 
 namespace trackbed::apps {
 
@@ -14,8 +15,28 @@ std::vector<std::string> gradation_curves() { return dem::curve_names(); }
 
 std::vector<std::string> contact_laws() { return {"stored_energy", "shao2017"}; }
 
-std::vector<std::string> subgrade_models() { return {"rigid", "layered_elastic"}; }
+std::vector<std::string> subgrade_models() {
+  std::vector<std::string> names{"rigid"};
+  for (const auto& entry : fem::subgrade_models()) names.push_back(entry.first);
+  return names;
+}
 
-std::vector<Parameter> subgrade_parameters() { return {}; }
+std::vector<std::string> waveforms() { return {"sine", "triangle"}; }
+
+std::vector<Parameter> subgrade_parameters() {
+  std::vector<Parameter> table;
+  for (const auto& [name, model] : fem::subgrade_models())
+    for (Parameter p : model.parameters) {
+      p.section = "Subgrade/" + name;
+      table.push_back(p);
+    }
+  return table;
+}
+
+std::string section_documentation(const std::string& section) {
+  for (const auto& [name, model] : fem::subgrade_models())
+    if (section == "Subgrade/" + name) return model.documentation;
+  return "";
+}
 
 }  // namespace trackbed::apps

@@ -12,8 +12,12 @@ std::vector<std::string> sieve_methods();
 std::vector<std::string> gradation_curves();  ///< without "table"
 std::vector<std::string> contact_laws();
 std::vector<std::string> subgrade_models();  ///< "rigid" first
+std::vector<std::string> waveforms();
 
-/// Parameters that the subgrade models bring along, each in a section of its own.
+/// Parameters that the subgrade models bring along, each in the section "Subgrade/<model>".
 std::vector<Parameter> subgrade_parameters();
+
+/// What a section is about: a subgrade model's own words; "" for the others.
+std::string section_documentation(const std::string& section);
 
 }  // namespace trackbed::apps

@@ -63,10 +63,11 @@ class Inside {
 };
 
 std::string documentation_of(const Parameter& p) {
-  std::string text = p.meaning;
+  const auto first = std::min(p.meaning.find('\n'), p.meaning.size());  // the rest explains
+  std::string text = p.meaning.substr(0, first);
   if (p.unit != "-") text += " [" + p.unit + "]";
   if (p.kind != ParameterKind::text) text += "; " + allowed_text(p);
-  return text;
+  return text + p.meaning.substr(first);
 }
 
 void declare(ParameterHandler& handler, const std::vector<Parameter>& table) {

@@ -140,19 +140,17 @@ void add_sleeper(Section s) {
   s.number("Seat length", "0.15", "m", 1e-3, 5, "loaded area of a seat, in x");
   s.number("Seat width", "0.15", "m", 1e-3, 5, "loaded area of a seat, in y");
   s.boolean("Vertical only", "false", "a rigid sleeper that only moves up and down (Sun 2015)");
-  s.text("Mesh", "", "-", "Gmsh file instead of a block, relative to this file; empty = block");
+  s.text("Mesh", "", "-",
+         "Gmsh file of an elastic sleeper with the outer sizes above, relative to this file; "
+         "empty = block");
 }
 
 void add_subgrade(Section s) {
-  s.choice("Model", "layered_elastic", subgrade_models(), "what carries the ballast");
-  s.number("Depth", "0.6", "m", 1e-3, 100, "down to a fixed base");
-  s.text("Layers", "0.2:1.2e8:0.3:2000, 0.4:6e7:0.35:1900", "m:Pa:-:kg/m3",
-         "from the top down, thickness:E:nu:density of each; together as thick as Depth");
-  s.numbers("Elements", "", "-", 1, 1000, "in x and y; empty = by Element size");
+  s.choice("Model", "layered_elastic", subgrade_models(),
+           "what carries the ballast; each model but rigid has a section of its own");
   s.number("Element size", "0.1", "m", 1e-4, 10, "largest edge of an element");
   s.integer("Order", "1", 1, 2, "polynomial degree of the elements");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on subgrade");
-  s.text("Mesh", "", "-", "Gmsh file instead of a block, relative to this file; empty = block");
 }
 
 void add_loading(Section s) {
@@ -161,8 +159,8 @@ void add_loading(Section s) {
   s.number("Frequency", "10", "Hz", 1e-6, 1e4, "of the load");
   s.integer("Cycles", "10", 0, 1e9, "load cycles (Shao 2017: 80)");
   s.number("Ramp time", "0.05", "s", 0, 1e4, "from no load to Least");
-  s.choice("Waveform", "sine", {"sine", "haversine"},
-           "sine starts at the mean, haversine at Least");
+  s.choice("Waveform", "sine", waveforms(),
+           "from Least to Largest and back: sine is (1 - cos)/2, triangle has straight flanks");
 }
 
 void add_numerics(Section s) {
@@ -173,7 +171,6 @@ void add_numerics(Section s) {
            "of generalised-alpha at infinite frequency; 1 = Newmark's trapezoidal rule");
   s.number("Closure", "0.01", "-", 1e-12, 1,
            "share of the work done beyond which the energy ledger is reported open");
-  s.boolean("Structure inertia", "true", "of elastic structures; false = quasi-static");
   s.number("Mirror noise", "0", "-", 0, 1e-6,
            "relative change of the start to show the noise floor; 0 = off");
 }

@@ -1,6 +1,7 @@
 // `trackbed parameters`: the table of all parameters in three forms.
 #include <cstdio>
 
+#include "apps/trackbed/choices.h"
 #include "apps/trackbed/commands.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
@@ -22,13 +23,25 @@ std::string markdown(const std::vector<Parameter>& table) {
   for (const auto& p : table) {
     if (p.section != section) {
       section = p.section;
-      text += "\n## " + (section.empty() ? "Outside of sections" : section) +
-              "\n\n| Key | Default | Unit | Allowed | Meaning |\n|---|---|---|---|---|\n";
+      const std::string words = section_documentation(section);
+      text += "\n## " + (section.empty() ? "Outside of sections" : section) + "\n\n" +
+              (words.empty() ? "" : words + "\n\n") +
+              "| Key | Default | Unit | Allowed | Meaning |\n|---|---|---|---|---|\n";
     }
     text += "| " + cell(p.key) + " | " + (p.fallback.empty() ? "" : "`" + cell(p.fallback) + "`") +
             " | " + cell(p.unit) + " | " + cell(allowed_text(p)) + " | " + cell(p.meaning) + " |\n";
   }
   return text;
+}
+
+/// Files have no place for a section's words: they go to the key that chooses the section.
+std::vector<Parameter> with_words_of_sections(std::vector<Parameter> table) {
+  for (auto& p : table)
+    for (const auto& choice : p.choices) {
+      const std::string words = section_documentation(p.section + "/" + choice);
+      if (!words.empty()) p.meaning += "\n" + choice + ": " + words;
+    }
+  return table;
 }
 
 }  // namespace
@@ -39,7 +52,7 @@ int parameters_command(const ParametersOptions& options) {
   if (options.format == "markdown")
     text = markdown(table);
   else if (options.format == "prm" || options.format == "json")
-    text = print_defaults(table,
+    text = print_defaults(with_words_of_sections(table),
                           options.format == "json" ? ParameterFormat::json : ParameterFormat::prm);
   else
     throw InputError("--format '" + options.format + "': allowed: prm, json or markdown");

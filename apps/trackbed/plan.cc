@@ -1,14 +1,15 @@
 #include "apps/trackbed/plan.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/grain_estimate.h"
-#include "apps/trackbed/layers.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/stage.h"
+#include "apps/trackbed/simulation/structures.h"
 #include "coupling/edit.h"
 #include "dem/grain/library.h"
 #include "dem/motion/time_step.h"
@@ -16,65 +17,56 @@
 namespace trackbed::apps {
 namespace {
 
-// Measured on the settled default bed (tests/benchmarks), one thread.
-constexpr double seconds_per_grain_step = 5e-6;
-constexpr double parallel_share = 0.9;  // of the work on grains
+// Measured on settled beds with one thread (tests/benchmarks).
+constexpr double seconds_per_grain_step = 1.5e-6;
+constexpr double seconds_per_surface_contact = 1.5e-6;  // grain on a deforming surface
+constexpr double parallel_share = 0.9;                  // of the work on grains
 constexpr double bytes_per_grain = 12e3;
 constexpr double bytes_of_program = 150e6;
+// Stages end when the bed is at rest, mostly long before their limit [s].
+constexpr double usual_deposit = 0.5, usual_settling = 0.2, usual_hardening = 0.1;
 
-double unknowns(double nx, double ny, double nz, int order, bool periodic) {
-  return 3 * (nx * order + 1) * (ny * order + (periodic ? 0 : 1)) * (nz * order + 1);
+/// A structure is built and takes some steps: no estimate knows a model of the user's own.
+StructureCost measure(fem::Structure& structure, double dt) {
+  using Clock = std::chrono::steady_clock;
+  StructureCost cost;
+  cost.unknowns = structure.unknowns();
+  structure.set_step(dt);
+  const auto* body = dynamic_cast<const fem::ElasticBody*>(&structure);
+  cost.solves = body && !body->is_explicit();
+  const std::vector<fem::Vec> no_forces(structure.surface().nodes.size(), fem::Vec{0, 0, 0});
+  std::vector<fem::Vec> u, v;
+  structure.advance(no_forces);  // the first one warms up
+  cost.seconds = 1e300;  // the fastest of some: what is left when nothing else runs
+  for (int steps = 0; steps < 10; ++steps) {
+    const auto start = Clock::now();
+    structure.predict(u, v);
+    structure.advance(no_forces);
+    const std::chrono::duration<double> taken = Clock::now() - start;
+    cost.seconds = std::min(cost.seconds, taken.count());
+  }
+  return cost;
 }
-
-double sleeper_unknowns(const Scene& scene) {
-  const auto& s = scene.sleeper;
-  if (s.model != "elastic") return 0;
-  return unknowns(s.elements[0] * (scene.container.half ? 0.5 : 1.0), s.elements[1], s.elements[2],
-                  s.order, false);
-}
-
-double subgrade_unknowns(const Scene& scene) {
-  const auto& s = scene.subgrade;
-  if (s.model == "rigid") return 0;
-  const auto& box = scene.container;
-  const double length = box.length * (box.half ? 0.5 : 1.0);
-  const bool given = s.elements.size() == 2;
-  const double nx = given ? s.elements[0] : std::ceil(length / s.element_size - 1e-9);
-  const double ny = given ? s.elements[1] : std::ceil(box.width / s.element_size - 1e-9);
-  double nz = 0;
-  std::string fault;
-  for (const auto& layer : parse_layers(s.layers, fault))
-    nz += std::ceil(layer.thickness / s.element_size - 1e-9);
-  if (nz == 0) nz = std::ceil(s.depth / s.element_size - 1e-9);
-  return unknowns(nx, ny, nz, s.order, box.periodic);
-}
-
-/// Forward and backward substitution with a sparse factor of about 8 n^(4/3) entries [s].
-double solve_seconds(double n) { return n > 0 ? 4e-9 * 8 * std::pow(n, 4.0 / 3) : 0; }
 
 std::string whole(double value) { return shortest(std::round(value)); }
 
 std::vector<Effect> effects_of(const Scene& s, const Plan& plan) {
   std::vector<Effect> effects;
-  auto solve = [](double n) {
-    return "one solve a step, " + whole(n) + " unknowns, about " +
-           shortest(std::round(1e5 * solve_seconds(n)) / 100) + " ms";
+  const auto text_of = [](const StructureCost& c) {
+    return whole(c.unknowns) + " unknowns, each step " + (c.solves ? "one solve, " : "no solve, ") +
+           shortest(std::ceil(1e5 * c.seconds) / 100) + " ms";
   };
   effects.push_back(
-      {"elastic sleeper", plan.sleeper_unknowns > 0,
-       plan.sleeper_unknowns > 0 ? solve(plan.sleeper_unknowns) : "Sleeper/Model = elastic"});
+      {"elastic sleeper", plan.sleeper.unknowns > 0,
+       plan.sleeper.unknowns > 0 ? text_of(plan.sleeper) : "Sleeper/Model = elastic"});
   effects.push_back({"under-sleeper pad",
                      s.sleeper.model == "elastic" && s.sleeper.pad_thickness > 0,
                      s.sleeper.model == "elastic" && s.sleeper.pad_thickness > 0
                          ? "elements of a second material"
                          : "Sleeper/Pad thickness with an elastic sleeper"});
-  effects.push_back({"elastic subgrade", plan.subgrade_unknowns > 0,
-                     plan.subgrade_unknowns > 0 ? solve(plan.subgrade_unknowns)
+  effects.push_back({"elastic subgrade", plan.subgrade.unknowns > 0,
+                     plan.subgrade.unknowns > 0 ? text_of(plan.subgrade)
                                                 : "Subgrade/Model other than rigid"});
-  const bool structures = plan.sleeper_unknowns + plan.subgrade_unknowns > 0;
-  effects.push_back(
-      {"inertia of structures", structures && s.numerics.structure_inertia,
-       structures ? "a mass matrix in the same solve" : "needs an elastic structure"});
   effects.push_back(
       {"periodic along track", s.container.periodic,
        s.container.periodic ? "images of grains at the seam" : "Container/Periodic along track"});
@@ -125,8 +117,6 @@ Plan make_plan(const Scene& scene, int threads) {
   }
   const Layout layout = make_layout(scene);
   plan.fill_grains = plan.grains * layout.fill_mass / layout.bed_mass;
-  plan.sleeper_unknowns = sleeper_unknowns(scene);
-  plan.subgrade_unknowns = subgrade_unknowns(scene);
 
   auto stages = packing_stages(scene);
   const auto loading = loading_stages(scene);
@@ -138,20 +128,43 @@ Plan make_plan(const Scene& scene, int threads) {
     sample.materials = make_materials(scene, stage.modulus, stage.friction);
     const double limit = dem::expected_limit(sample.bodies, sample.shapes, sample.materials, {}).dt;
     const double dt = given > 0 ? given : stage.margin * limit;
-    plan.stages.push_back({stage.name, stage.longest, dt, std::ceil(stage.longest / dt)});
+    const double usual = stage.name == "deposit"      ? usual_deposit
+                         : stage.name == "hardening" ? usual_hardening
+                         : stage.until_quiet         ? usual_settling
+                                                     : stage.longest;
+    const double duration = std::min(usual, stage.longest);
+    plan.stages.push_back(
+        {stage.name, duration, stage.longest, dt, std::ceil(duration / dt), stage.ledger});
   }
 
-  const double speedup = 1 / (1 - parallel_share + parallel_share / std::max(1, threads));
-  const double solve = solve_seconds(plan.sleeper_unknowns) + solve_seconds(plan.subgrade_unknowns);
+  const double dt = plan.stages.empty() ? 1e-5 : plan.stages.back().time_step;
+  double area = 0;  // of deforming surfaces
+  if (scene.sleeper.model != "rigid") {
+    plan.sleeper = measure(*make_elastic_sleeper(scene, layout, 0), dt);
+    area += (layout.sleeper_high_x - layout.sleeper_low_x) * scene.sleeper.width;
+  }
+  if (scene.subgrade.model != "rigid") {
+    plan.subgrade = measure(*make_subgrade_structure(scene, layout), dt);
+    area += (layout.high - layout.low).head<2>().prod();
+  }
+  const double d = std::cbrt(layout.bed_mass / (scene.grains.density * 0.6 * plan.grains));
+  const double surface_contacts = area / (d * d);
   for (const auto& stage : plan.stages) {
     const bool filled = stage.name != "deposit" && stage.name != "tamping";
-    const bool loads = stage.name == "seating" || stage.name == "loading";
     const double count = plan.grains + (filled ? plan.fill_grains : 0);
-    plan.seconds += stage.steps * (seconds_per_grain_step * count / speedup + (loads ? solve : 0));
+    // As many threads as a step uses (stages.cc).
+    const double workers = std::min<double>(threads, 1 + std::floor(count / 100));
+    double step = seconds_per_grain_step * count;
+    if (stage.loads) step += seconds_per_surface_contact * surface_contacts;
+    step *= 1 - parallel_share + parallel_share / std::max(1.0, workers);
+    if (stage.loads) step += plan.sleeper.seconds + plan.subgrade.seconds;
+    plan.seconds += stage.steps * step;
   }
-  const double n_fe = plan.sleeper_unknowns + plan.subgrade_unknowns;
+  const auto factor = [](const StructureCost& c) {
+    return 12 * 81 * c.unknowns + (c.solves ? 12 * 8 * std::pow(c.unknowns, 4.0 / 3) : 0);
+  };
   plan.memory = bytes_of_program + bytes_per_grain * (plan.grains + plan.fill_grains) +
-                12 * 8 * std::pow(n_fe, 4.0 / 3) + 12 * 81 * n_fe;
+                factor(plan.sleeper) + factor(plan.subgrade);
   plan.effects = effects_of(scene, plan);
   return plan;
 }

@@ -1,4 +1,5 @@
-// What a run of a scene would do and cost, estimated from the scene alone; nothing is built.
+// What a run of a scene would do and cost: grains estimated from the scene alone, structures built
+// and timed for a few steps.
 #pragma once
 #include <string>
 #include <vector>
@@ -16,15 +17,23 @@ struct Effect {
 
 struct PlanStage {
   std::string name;
-  double duration;   ///< simulated [s], at most
+  double duration;   ///< simulated, as is usual [s]
+  double longest;    ///< at most [s]
   double time_step;  ///< [s]
-  double steps;
+  double steps;      ///< of the usual duration
+  bool loads;        ///< with the scene's structures
+};
+
+struct StructureCost {
+  double unknowns = 0;  ///< 0 = rigid
+  double seconds = 0;   ///< a step
+  bool solves = false;  ///< else explicit
 };
 
 struct Plan {
-  double grains;                               ///< in the bed, class by class
-  double fill_grains;                          ///< put beside the sleeper after packing
-  double sleeper_unknowns, subgrade_unknowns;  ///< 0 = no finite elements
+  double grains;       ///< in the bed, class by class
+  double fill_grains;  ///< put beside the sleeper after packing
+  StructureCost sleeper, subgrade;
   std::vector<PlanStage> stages;
   std::vector<Effect> effects;
   double memory;   ///< [bytes]

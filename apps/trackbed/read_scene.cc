@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "apps/trackbed/check_scene.h"
+#include "apps/trackbed/check_structures.h"
+#include "apps/trackbed/choices.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/scene_text.h"
@@ -103,13 +105,12 @@ SleeperScene sleeper(const Values& v) {
 SubgradeScene subgrade(const Values& v) {
   SubgradeScene s{};
   s.model = v.text("Subgrade/Model");
-  s.depth = v.number("Subgrade/Depth");
-  s.layers = v.text("Subgrade/Layers");
-  s.elements = v.numbers("Subgrade/Elements");
   s.element_size = v.number("Subgrade/Element size");
   s.order = static_cast<int>(v.integer("Subgrade/Order"));
   s.friction = v.number("Subgrade/Friction");
-  s.mesh = v.text("Subgrade/Mesh");
+  const std::string section = "Subgrade/" + s.model;
+  for (const auto& p : subgrade_parameters())
+    if (p.section == section) s.values[p.key] = v.text(parameter_path(p));
   return s;
 }
 
@@ -131,7 +132,6 @@ NumericsScene numerics(const Values& v) {
   n.time_step = v.number("Numerics/Time step");
   n.spectral_radius = v.number("Numerics/Spectral radius");
   n.closure = v.number("Numerics/Closure");
-  n.structure_inertia = v.boolean("Numerics/Structure inertia");
   n.mirror_noise = v.number("Numerics/Mirror noise");
   return n;
 }
@@ -180,6 +180,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.numerics = numerics(values);
   scene.output = output(values);
   check_scene(scene, values);
+  check_structures(scene, values);
   return scene;
 }
 

@@ -78,14 +78,11 @@ struct SleeperScene {
 };
 
 struct SubgradeScene {
-  std::string model;             ///< "rigid" or a name from the registry ("layered_elastic", ...)
-  double depth;                  ///< [m]
-  std::string layers;            ///< "thickness:E:nu:rho, ..." from the top down
-  std::vector<double> elements;  ///< in x, y; and z per layer by size
-  double element_size;           ///< [m], used where elements is empty
-  int order;
+  std::string model;    ///< "rigid" or a name from the registry ("layered_elastic", ...)
+  double element_size;  ///< largest edge of an element [m]
+  int order;            ///< polynomial degree of the elements
   double friction;
-  std::string mesh;
+  std::map<std::string, std::string> values;  ///< of the model's own section: key to text
 };
 
 struct LoadingScene {
@@ -93,7 +90,7 @@ struct LoadingScene {
   double frequency;       ///< [Hz]
   int cycles;
   double ramp_time;      ///< from zero to the least load [s]
-  std::string waveform;  ///< "sine" | "haversine"
+  std::string waveform;  ///< "sine" | "triangle"
 };
 
 struct NumericsScene {
@@ -102,7 +99,6 @@ struct NumericsScene {
   double time_step;        ///< fixed step [s]; 0 = from margin
   double spectral_radius;  ///< of generalised-alpha at infinite frequency; 1 = Newmark
   double closure;          ///< share of the work done beyond which the ledger is reported open
-  bool structure_inertia;
   double mirror_noise;  ///< relative size of a last-bit change of the start (noise floor)
 };
 

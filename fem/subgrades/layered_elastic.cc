@@ -30,6 +30,13 @@ std::unique_ptr<Structure> build(const SubgradeSite& site, const Values& values)
     p.mesh.corner[2] -= thickness;
   }
   if (p.materials.empty()) throw InputError("Subgrade/layered_elastic/Layers: no layer given");
+  p.mesh.file = values.at("Mesh");
+  if (!p.mesh.file.empty()) {
+    p.mesh.corner = {0, 0, site.top};
+    if (p.materials.size() > 1)
+      for (std::size_t k = 0; k < p.materials.size(); ++k)
+        p.mesh.region_material[text("layer_", k + 1)] = static_cast<int>(k);
+  }
   return std::make_unique<ElasticBody>(std::move(p));
 }
 
@@ -43,6 +50,16 @@ const RegisterSubgrade here{
        "0.2:120e6:0.3:2000, 0.4:60e6:0.35:1900",
        "m:Pa:-:kg/m3",
        "layers from the top down, each thickness:E:nu:density",
+       ParameterKind::text,
+       {},
+       {},
+       {}},
+      {"Subgrade/layered_elastic",
+       "Mesh",
+       "",
+       "-",
+       "Gmsh file instead of a box, its top at z = 0, relative to this file; its physical volumes "
+       "are layer_1, layer_2, ... from the top down, thicknesses are then not used",
        ParameterKind::text,
        {},
        {},

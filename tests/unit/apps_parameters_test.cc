@@ -5,14 +5,17 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/trackbed/choices.h"
 #include "apps/trackbed/files.h"
-#include "apps/trackbed/layers.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/plan.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/scene_text.h"
+#include "apps/trackbed/simulation/structures.h"
+#include "apps/trackbed/waveform.h"
 #include "base/error.h"
+#include "fem/subgrades/registry.h"
 
 namespace trackbed::apps {
 namespace {
@@ -108,16 +111,43 @@ TEST(Numbers, WholeTextOrNothing) {
     EXPECT_FALSE(parse_number(wrong, x)) << wrong;
 }
 
-TEST(Layers, FromTheTopDown) {
-  std::string fault;
-  const auto layers = parse_layers("0.2:1e8:0.3:2000, 0.4:5e7:0.499:1900", fault);
-  EXPECT_EQ(fault, "");
-  ASSERT_EQ(layers.size(), 2u);
-  EXPECT_EQ(layers[1].poisson, 0.499);
-  parse_layers("0.2:1e8:0.5:2000", fault);
-  EXPECT_NE(fault.find("layer 1"), std::string::npos);
-  parse_layers("0.2:1e8:0.3", fault);
-  EXPECT_NE(fault, "");
+TEST_F(Parameters, EveryRegisteredSubgradeHasItsSectionAndItsWords) {
+  const auto table = scene_parameters();
+  const std::string printed = print_defaults(table, ParameterFormat::prm);
+  for (const auto& [name, model] : fem::subgrade_models()) {
+    EXPECT_NE(printed.find("subsection " + name), std::string::npos) << name;
+    EXPECT_FALSE(section_documentation("Subgrade/" + name).empty()) << name;
+    const Scene scene = read_scene(write(name + ".prm", "subsection Subgrade\n  set Model = " +
+                                                            name + "\nend\n"));
+    EXPECT_EQ(scene.subgrade.values.size(), model.parameters.size()) << name;
+    EXPECT_GT(make_subgrade_structure(scene, make_layout(scene))->mass(), 0) << name;
+  }
+}
+
+TEST_F(Parameters, AValueOfASubgradeModelReachesIt) {
+  const std::string file = write("a.prm", R"(
+subsection Subgrade
+  set Model = winkler
+  subsection winkler
+    set Mass = 100
+  end
+end)");
+  const Scene light = read_scene(file);
+  const Scene heavy = read_scene(file, {"Subgrade/winkler/Mass=200"});
+  const Layout l = make_layout(light);
+  EXPECT_NEAR(make_subgrade_structure(heavy, l)->mass(),
+              2 * make_subgrade_structure(light, l)->mass(), 1e-9);
+}
+
+TEST(Waveform, StartsAndEndsAtLeast) {
+  for (const auto& name : waveforms()) {
+    EXPECT_NEAR(waveform_load(name, 0, 0.1, 3, 80), 3, 1e-12) << name;
+    EXPECT_NEAR(waveform_load(name, 0.05, 0.1, 3, 80), 80, 1e-12) << name;
+    EXPECT_NEAR(waveform_load(name, 0.15, 0.1, 3, 80), 80, 1e-10) << name;
+    EXPECT_NEAR(waveform_load(name, 0.2, 0.1, 3, 80), 3, 1e-10) << name;
+  }
+  EXPECT_NEAR(waveform_load("triangle", 0.0125, 0.1, 0, 80), 20, 1e-10);
+  EXPECT_NEAR(waveform_load("sine", 0.025, 0.1, 0, 80), 40, 1e-10);
 }
 
 TEST(Scenes, AllThatAreShippedAreValid) {

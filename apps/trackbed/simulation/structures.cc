@@ -1,16 +1,9 @@
 #include "apps/trackbed/simulation/structures.h"
 
-#include <cmath>
-#include <sstream>
-
-#include "base/error.h"
+#include "fem/subgrades/registry.h"
 
 namespace trackbed::apps {
 namespace {
-
-int divisions(double length, double size) {
-  return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
-}
 
 void set_time_integration(const Scene& s, fem::ElasticBodyParameters& p) {
   p.rho_inf = s.numerics.spectral_radius;
@@ -45,7 +38,10 @@ std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene& scene, const
     p.materials.push_back(pad);
     p.mesh.layers = {{s.pad_thickness, 1, 1}, {s.height - s.pad_thickness, p.mesh.elements[2], 0}};
   }
-  p.mesh.file = s.mesh;
+  if (!s.mesh.empty()) {  // drawn about the middle of its base
+    p.mesh.file = s.mesh;
+    p.mesh.corner = {0, 0, base};
+  }
   p.order = s.order;
   if (scene.container.half) p.supports["x_min"] = fem::Support::roller;
   for (const double x : s.seats) {
@@ -69,42 +65,17 @@ std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene& scene, const
   return std::make_unique<fem::ElasticBody>(std::move(p));
 }
 
-std::unique_ptr<fem::ElasticBody> make_elastic_subgrade(const Scene& scene, const Layout& l) {
-  const SubgradeScene& s = scene.subgrade;
-  fem::ElasticBodyParameters p;
-  p.name = "Subgrade";
-  p.mesh.corner = {l.low.x(), l.low.y(), -s.depth};
-  p.mesh.lengths = {l.high.x() - l.low.x(), l.high.y() - l.low.y(), s.depth};
-  if (s.elements.size() >= 2)
-    p.mesh.elements = {static_cast<int>(s.elements[0] * l.share + 0.5),
-                       static_cast<int>(s.elements[1]), 1};
-  else
-    p.mesh.elements = {divisions(p.mesh.lengths[0], s.element_size),
-                       divisions(p.mesh.lengths[1], s.element_size), 1};
-  // Layers are written from the top down, meshed from the bottom up.
-  std::stringstream text(s.layers);
-  for (std::string one; std::getline(text, one, ',');) {
-    std::stringstream numbers(one);
-    double v[4];
-    char colon;
-    numbers >> v[0] >> colon >> v[1] >> colon >> v[2] >> colon >> v[3];
-    if (!numbers) throw InputError("Subgrade/Layers: '" + one + "' is not thickness:E:nu:density");
-    fem::Material m;
-    m.name = "layer " + std::to_string(p.materials.size() + 1);
-    m.young = v[1], m.poisson = v[2], m.density = v[3];
-    p.mesh.layers.insert(p.mesh.layers.begin(), {v[0], divisions(v[0], s.element_size),
-                                                 static_cast<int>(p.materials.size())});
-    p.materials.push_back(m);
-  }
-  p.mesh.file = s.mesh;
-  p.order = s.order;
-  p.supports["bottom"] = fem::Support::fixed;
-  p.supports["x_min"] = p.supports["x_max"] = fem::Support::roller;
-  const auto sides = scene.container.periodic ? fem::Support::periodic : fem::Support::roller;
-  p.supports["y_min"] = p.supports["y_max"] = sides;
-  p.contact = {"top"};
-  set_time_integration(scene, p);
-  return std::make_unique<fem::ElasticBody>(std::move(p));
+std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene& scene, const Layout& l) {
+  fem::SubgradeSite site;
+  site.x_low = l.low.x(), site.x_high = l.high.x();
+  site.y_low = l.low.y(), site.y_high = l.high.y();
+  site.top = l.low.z();
+  site.element_size = scene.subgrade.element_size;
+  site.order = scene.subgrade.order;
+  site.periodic_y = scene.container.periodic;
+  site.rho_inf = scene.numerics.spectral_radius;
+  site.newmark = scene.numerics.spectral_radius == 1;
+  return fem::make_subgrade(scene.subgrade.model, site, scene.subgrade.values);
 }
 
 }  // namespace trackbed::apps

@@ -1,4 +1,4 @@
-// The structures of a scene: FE bodies from its sleeper and subgrade sections.
+// The structures of a scene: finite element bodies and beds from its sleeper and subgrade sections.
 #pragma once
 #include <memory>
 
@@ -11,11 +11,16 @@ namespace trackbed::apps {
 /// The elastic sleeper with its base at height `base` [m], free in space, its rail seats as loads.
 std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene&, const Layout&, double base);
 
-/// The elastic subgrade below z = 0, held at its base, rollers at the sides (a seam where the
-/// scene is periodic).
-std::unique_ptr<fem::ElasticBody> make_elastic_subgrade(const Scene&, const Layout&);
+/// The subgrade below z = 0 by the model that the scene names, rollers at its sides (a seam where
+/// the scene is periodic). Not for "rigid".
+std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene&, const Layout&);
 
 /// Boundaries of the sleeper that grains touch.
 std::vector<std::string> sleeper_contact(const Scene&);
+
+/// Former name.
+inline std::unique_ptr<fem::Structure> make_elastic_subgrade(const Scene& scene, const Layout& l) {
+  return make_subgrade_structure(scene, l);
+}
 
 }  // namespace trackbed::apps
