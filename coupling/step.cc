@@ -21,6 +21,14 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
+// Before a search sorts places that are none.
+void check_finite(const World& w) {
+  for (int i = 0; i < w.bodies.size(); ++i)
+    if (!w.bodies.x[i].allFinite() || !w.bodies.q[i].coeffs().allFinite())
+      throw RunError("step " + std::to_string(w.step) + ": the place of body " + std::to_string(i) +
+                     " is not a finite number; the time step is probably too large");
+}
+
 Vec3 vec(const fem::Vec& v) { return {v[0], v[1], v[2]}; }
 
 // Surface nodes to where the structure expects them at t + dt.
@@ -95,6 +103,7 @@ void advance(World& w, const dem::StepContext& c, const Drive& drive) {
   }
   w.time += c.dt;
   ++w.step;
+  check_finite(w);
   drive(w, w.time);
   {
     Stopwatch watch(w.times.structures);

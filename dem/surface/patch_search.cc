@@ -57,13 +57,12 @@ class TriangleFinder {
     }
     (whole_.high - whole_.low).maxCoeff(&along_);
     for (int t = 0; t < triangles; ++t) {
-      double low = cells_[3 * t].low[along_], high = cells_[3 * t].high[along_];
-      for (int c = 1; c < 3; ++c) {
-        low = std::min(low, cells_[3 * t + c].low[along_]);
-        high = std::max(high, cells_[3 * t + c].high[along_]);
-      }
-      sorted_.push_back({low, t});
-      widest_ = std::max(widest_, high - low);
+      Box box;
+      for (int c = 3 * t; c < 3 * t + 3; ++c)
+        box.include(cells_[c].low), box.include(cells_[c].high);
+      sorted_.push_back({box.low[along_], t});
+      widest_ = std::max(widest_, box.high[along_] - box.low[along_]);
+      triangles_.push_back(box);
     }
     std::sort(sorted_.begin(), sorted_.end());
   }
@@ -82,17 +81,19 @@ class TriangleFinder {
       const double low = grain.low[along_] - shift[along_] - widest_,
                    high = grain.high[along_] - shift[along_];
       for (auto s = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(low, -1));
-           s != sorted_.end() && s->first <= high; ++s)
+           s != sorted_.end() && s->first <= high; ++s) {
+        if (!triangles_[s->second].meets(grain, shift)) continue;
         for (int cell = 3 * s->second; cell < 3 * s->second + 3; ++cell)
           if (cells_[cell].meets(grain, shift))
             hits.push_back({cell, static_cast<int>(images.size())});
+      }
       images.push_back(shift);
     });
     std::sort(hits.begin(), hits.end());
   }
 
  private:
-  std::vector<Box> cells_;
+  std::vector<Box> cells_, triangles_;
   Box whole_;
   int along_ = 0;
   double widest_ = 0;
