@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "dem/contact/friction.h"
 #include "dem/grain/random.h"
 #include "dem/grain/voronoi.h"
 #include "motion_scene.h"
@@ -214,6 +215,49 @@ TEST(Friction, sticks_and_slips_as_on_a_rigid_box) {
   }
   EXPECT_GT(slipped, .02);
   EXPECT_LT(far, 1e-11 * slipped);
+}
+
+TEST(Friction, counts_the_motion_of_the_surface) {
+  const double E = 1e7, dt = 1e-3;
+  for (const bool together : {true, false}) {
+    PatchScene s(flat_mesh(20, 20, -1, 1, -1, 1), .05, 0, E, .5);
+    s.add(make_box({.2, .2, .2}), 1000, {.013, .027, .1 - .005});
+    s.evaluate_afresh();
+    const Vec3 v(1e-3, -2e-3, 0);
+    for (Vec3& node : s.patch.velocity) node = v;
+    s.bodies.v[0] = together ? v : Vec3(Vec3::Zero());
+    s.evaluate(dt);
+    const Vec3 expected = together ? Vec3(Vec3::Zero()) : Vec3(.25 * kShaoFactor * E * .2 * dt * v);
+    expect_near(s.contacts.friction[0], expected, 1e-6 * kShaoFactor * E * .2 * dt * v.norm(),
+                "friction");
+  }
+}
+
+// What friction puts on the nodes has no moment about the centroid of the touched surface, and does
+// the work of that point.
+TEST(Friction, acts_where_the_surface_is_touched) {
+  PatchScene s(flat_mesh(20, 20, -1, 1, -1, 1), .05, 0, 1e7, .5);
+  s.add(grain(3), 1000, Vec3::Zero());
+  sink(s, 0, {0, 0, 1}, {.013, .027, 0}, turn_about({1, 2, 3}, 2), .03);
+  s.evaluate_afresh();
+  std::vector<Vec3> change = s.patch.force;  // of the nodes' forces, by friction
+  Mat3 stretch;
+  stretch << .1, .3, 0, -.2, .4, 0, 0, 0, 0;
+  for (std::size_t i = 0; i < s.patch.node.size(); ++i)
+    s.patch.velocity[i] = stretch * s.patch.node[i];
+  s.evaluate(1e-2);
+  const Vec3 friction = s.contacts.friction[0], point = s.contacts.point[0];
+  ASSERT_GT(friction.norm(), 1e-3 * s.contacts.normal_force[0].norm());
+  Vec3 moment = Vec3::Zero();
+  double power = 0, size = 0;
+  for (int i = 0; i < s.patch.carried; ++i) {
+    change[i] = s.patch.force[i] - change[i];
+    moment += (s.patch.node[i] - point).cross(change[i]);
+    power += s.patch.velocity[i].dot(change[i]);
+    size += s.patch.force[i].norm();
+  }
+  expect_near(moment, Vec3::Zero(), 1e-13 * size, "moment");
+  EXPECT_NEAR(power, -friction.dot(stretch * point), 1e-13 * size);
 }
 
 TEST(Patch, refuses_what_has_no_shell) {
