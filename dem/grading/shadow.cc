@@ -58,7 +58,15 @@ std::vector<Vec2> shadow(const Polyhedron& body, const Vec3& u) {
     hull.pop_back();
     std::reverse(points.begin(), points.end());
   }
-  return hull;
+  // Corners that differ by rounding (an edge of the body along u) are one: the side between them
+  // would have any direction.
+  const double tiny = 1e-12 * (points.back() - points.front()).norm();
+  std::vector<Vec2> corners;
+  for (const Vec2& p : hull)
+    if (corners.empty() || (p - corners.back()).norm() > tiny) corners.push_back(p);
+  while (corners.size() > 1 && (corners.back() - corners.front()).norm() <= tiny)
+    corners.pop_back();
+  return corners;
 }
 
 namespace {

@@ -125,6 +125,13 @@ TEST(SieveSize, ByNameOnShaosGrains) {
   EXPECT_NEAR(sieve_size(plate, SieveMethod::elias2014), 64, 1e-9);
   EXPECT_NEAR(sieve_size(plate, SieveMethod::shao2017), 68 / std::sqrt(2.), 1e-9);
   EXPECT_NEAR(sieve_size(octahedron(), SieveMethod::shao2017), 1.1547, 5e-5);
+  // In any pose: corners of the shadow that differ by rounding make no sides of their own.
+  Random random(3);
+  for (int k = 0; k < 20; ++k) {
+    const Polyhedron p = moved(plate, Quat(Eigen::AngleAxisd(k, random.direction())), {1, 2, 3});
+    EXPECT_NEAR(sieve_size(p, SieveMethod::elias2014), 64, 1e-9);
+    EXPECT_NEAR(sieve_size(p, SieveMethod::shao2017), 68 / std::sqrt(2.), 1e-9);
+  }
 }
 
 double least_shadow(const Polyhedron& body) {  // over n_i x n_j
