@@ -21,3 +21,21 @@ foreach(case ${failure_cases})
                    $<TARGET_FILE:trackbed> ${folder})
   set_tests_properties(failures/${name} PROPERTIES LABELS failures)
 endforeach()
+
+# Each test of scenes/program_test.py is one of ctest's.
+file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/scenes/program_test.py scene_lines
+     REGEX "^class [A-Z][A-Za-z]+\\(|^    def test_")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+             ${CMAKE_CURRENT_SOURCE_DIR}/scenes/program_test.py)
+foreach(line ${scene_lines})
+  if(line MATCHES "^class ([A-Za-z]+)")
+    set(scene_class ${CMAKE_MATCH_1})
+  elseif(line MATCHES "def (test_([a-z_]+))")
+    set(name scenes/${CMAKE_MATCH_2})
+    add_test(NAME ${name}
+             COMMAND ${TRACKBED_PYTHON} -B -m unittest program_test.${scene_class}.${CMAKE_MATCH_1}
+             WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/scenes)
+    set_tests_properties(${name} PROPERTIES LABELS scenes TIMEOUT 300 ENVIRONMENT
+                         "TRACKBED=$<TARGET_FILE:trackbed>;OMP_NUM_THREADS=2;OMP_WAIT_POLICY=passive")
+  endif()
+endforeach()

@@ -68,6 +68,9 @@ void check_gradation(const Check& c) {
     c.refuse("Container/Width", "the narrowest side of the bed is " + metres(room) +
                                     "; two of the largest grains (" + metres(largest) +
                                     ") must fit");
+  if (c.scene.container.periodic && c.scene.container.width < 3 * largest)
+    c.refuse("Container/Width", "a periodic bay is at least three of the largest grains long, " +
+                                    metres(3 * largest) + " by their sieve size");
   for (const auto& k : classes)
     if (k.share > g.tolerance && k.grains < 0.5)
       c.refuse(g.curve == "table" ? "Gradation/Passing" : "Gradation/Curve",

@@ -1,0 +1,243 @@
+"""The program on a scene of fifty grains: what holds for every run, whatever the grains do. Run by
+ctest, one test each; TRACKBED names the program."""
+import csv
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["TRACKBED"]
+HERE = pathlib.Path(__file__).resolve().parent
+# Not the same in two runs of the same scene: how long they took.
+CLOCK = {"timing.csv", "summary.csv"}
+# A load cycle of some hundred steps after a short ramp.
+SHORT = {"Loading/Ramp time": "0.002", "Loading/Frequency": "250", "Loading/Cycles": "1"}
+
+
+def rows(file):
+    with open(file, newline="") as text:
+        return list(csv.DictReader(text))
+
+
+def plain(file):
+    """The bytes of a file without XML comments: deal.II writes the date into them."""
+    return re.sub(rb"<!--.*?-->", b"", file.read_bytes(), flags=re.DOTALL)
+
+
+class SceneTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="trackbed_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        shutil.copy(HERE / "tiny.prm", self.folder)
+
+    def trackbed(self, *arguments, exit_code=0, **options):
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+        self.assertEqual(done.returncode, exit_code, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def run_scene(self, output, *options, change=None, **more):
+        changes = {"Packing/Folder": "packings", **(change or {})}
+        sets = [word for path, value in changes.items() for word in ("--set", f"{path}={value}")]
+        self.trackbed("run", "tiny.prm", "--output", output, *options, *sets, **more)
+        return self.folder / output
+
+    def summary(self, run):
+        return {row["quantity"]: row["value"] for row in rows(run / "summary.csv")}
+
+    def assert_sound(self, run):
+        """Every number is one, the ledger closes to 1 %, what a run promises is there."""
+        for file in run.glob("*.csv"):
+            for row in rows(file):
+                for key, cell in row.items():
+                    self.assertNotIn(cell.lower(), ("nan", "inf", "-nan", "-inf"), f"{file} {key}")
+        self.assertLess(float(self.summary(run)["closure"]), 0.01)
+        for name in ("scene.resolved.prm", "snapshots.h5", "snapshots.xdmf", "checkpoint.h5", "gradation.csv",
+                     "grains.csv", "timing.csv", "history.csv", "energy.csv", "cycles.csv"):
+            self.assertTrue((run / name).stat().st_size > 0, name)
+
+    def assert_same(self, one, other, names=None):
+        files = names or sorted(p.name for p in one.iterdir()
+                                if p.suffix in (".csv", ".vtu", ".pvd") and p.name not in CLOCK)
+        self.assertGreater(len(files), 2)
+        for name in files:
+            self.assertEqual(plain(one / name), plain(other / name), f"{name} differs")
+
+    def contents(self, folder):
+        return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+class Runs(SceneTest):
+    def test_elastic(self):
+        run = self.run_scene("a")
+        self.assert_sound(run)
+        cycles = rows(run / "cycles.csv")
+        self.assertEqual([row["cycle"] for row in cycles], ["1", "2"])
+        for row in cycles:
+            self.assertAlmostEqual(float(row["load_min_N"]), 20, delta=1e-6)
+            self.assertAlmostEqual(float(row["load_max_N"]), 100, delta=1e-6)
+        stages = list(dict.fromkeys(row["stage"] for row in rows(run / "history.csv")))
+        self.assertEqual(stages, ["deposit", "tamping", "sleeper in", "hardening", "seating", "loading"])
+        self.assertTrue(list(run.glob("structure_sleeper_*.vtu")))
+        self.assertTrue(list(run.glob("structure_subgrade_*.vtu")))
+        contacts = {row["contacts"] for row in rows(run / "history.csv") if row["stage"] == "loading"}
+        self.assertTrue(all(int(n) > 20 for n in contacts))
+
+    def test_rigid(self):
+        run = self.run_scene("a", change={"Sleeper/Model": "rigid", "Subgrade/Model": "rigid"})
+        self.assert_sound(run)
+        self.assertFalse(list(run.glob("*.vtu")))
+        self.assertNotIn("unknowns of the sleeper", self.summary(run))
+
+    def test_half_by_symmetry(self):
+        change = {"Container/Half by symmetry": "true", "Container/Length": "0.2", "Sleeper/Length": "0.14"}
+        self.assert_sound(self.run_scene("a", change={**SHORT, **change}))
+
+    def test_periodic(self):
+        self.assert_sound(self.run_scene("a", change={
+            **SHORT, "Container/Periodic along track": "true", "Container/Width": "0.18",
+            "Container/Ballast depth": "0.06"}))
+
+    def test_every_subgrade_model(self):
+        parameters = json.loads(self.trackbed("parameters", "--format", "json").stdout)
+        # In deal.II's JSON a parameter has a "value"; what has none is a section.
+        models = [name.replace("_5f", "_") for name, entry in parameters["Subgrade"].items()
+                  if "value" not in entry]
+        self.assertGreaterEqual(len(models), 4)
+        for model in ["rigid", *models]:
+            with self.subTest(model):
+                run = self.run_scene(model, change={**SHORT, "Subgrade/Model": model})
+                self.assert_sound(run)
+                self.assertEqual("unknowns of the subgrade" in self.summary(run), model != "rigid")
+        self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 1, "all on the same packing")
+
+
+class SameAnswer(SceneTest):
+    def test_threads(self):
+        # A hundred grains: enough for a second thread.
+        change = {**SHORT, "Container/Ballast depth": "0.135", "Packing/Settle time": "0.2", "Packing/Reuse": "false"}
+        runs = [self.run_scene(f"threads_{n}", "--threads", n, change=change) for n in (1, 2, 8)]
+        self.assertGreaterEqual(float(self.summary(runs[0])["grains"]), 100)
+        self.assert_same(runs[0], runs[1])
+        self.assert_same(runs[0], runs[2])
+
+    def test_kept_packing(self):
+        fresh = self.run_scene("fresh")
+        taken = self.run_scene("taken")
+        self.assert_same(fresh, taken, ["cycles.csv", "energy.csv", "compaction.csv", "gradation.csv",
+                                        "pressure.csv", "moment.csv"])
+        loading = [row for row in rows(fresh / "history.csv") if row["stage"] in ("seating", "loading")]
+        self.assertEqual(loading, rows(taken / "history.csv"))
+
+    def test_packed_by_the_pack_command(self):
+        self.trackbed("pack", "tiny.prm", "--output", "packed", "--set", "Packing/Folder=packings")
+        self.assertFalse(rows(self.folder / "packed" / "cycles.csv"))
+        run = self.run_scene("taken")
+        self.assertEqual(rows(run / "history.csv")[0]["stage"], "seating")
+        self.assert_same(run, self.run_scene("fresh", change={"Packing/Reuse": "false"}),
+                         ["cycles.csv", "energy.csv", "compaction.csv"])
+
+    def stop_after(self, stage, output, resume):
+        """Ctrl-C in the stage that follows `stage`."""
+        command = [PROGRAM, "run", "tiny.prm", "--output", output, "--set", "Packing/Reuse=false",
+                   "--set", "Packing/Folder=packings"] + (["--resume"] if resume else [])
+        with subprocess.Popen(command, cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as program:
+            seen = ""
+            for line in program.stderr:
+                seen += line
+                if line.startswith(stage):
+                    program.send_signal(signal.SIGINT)
+            program.stdout.read()
+        self.assertEqual(program.returncode, 128 + signal.SIGINT, seen)
+        self.assertIn("--resume", seen)
+
+    def test_resume(self):
+        change = {"Packing/Reuse": "false"}
+        whole = self.run_scene("whole", change=change)
+        self.stop_after("deposit", "parts", False)
+        self.stop_after("sleeper in", "parts", True)
+        self.stop_after("seating", "parts", True)
+        self.assertLess(len(rows(self.folder / "parts" / "history.csv")), len(rows(whole / "history.csv")))
+        parts = self.run_scene("parts", "--resume", change=change)
+        self.assert_same(whole, parts)
+        self.assertEqual((whole / "snapshots.xdmf").read_bytes(), (parts / "snapshots.xdmf").read_bytes())
+
+
+class Commands(SceneTest):
+    def test_check_writes_nothing(self):
+        before = self.contents(self.folder)
+        text = self.trackbed("check", "tiny.prm").stdout
+        self.assertEqual(self.contents(self.folder), before)
+        for word in ("Grains", "elastic sleeper", "Off", "time step", "steps", "memory", "nothing was run"):
+            self.assertIn(word, text)
+
+    def test_compare(self):
+        options = [f"--set={path}={value}" for path, value in SHORT.items()]
+        self.trackbed("compare", "tiny.prm", "--output", "c", "--set=Packing/Folder=packings", *options)
+        table = rows(self.folder / "c" / "compare.csv")
+        self.assertTrue(any("settlement" in " ".join(map(str, row.values())) for row in table))
+        self.assertIn("verdict", table[0])
+        self.assertTrue(all(row["verdict"] for row in table))
+        self.assertGreater((self.folder / "c" / "compare.html").stat().st_size, 1000)
+        for name in ("rigid", "elastic", "rigid_repeat", "elastic_repeat"):
+            self.assert_sound(self.folder / "c" / name)
+        self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 1, "one packing for all")
+
+    def test_report(self):
+        self.run_scene("a", change=SHORT)
+        self.trackbed("report", "a")
+        self.assertIn("<html", (self.folder / "a" / "report.html").read_text().lower())
+
+    def test_settings_change_the_run(self):
+        one = self.run_scene("one", change=SHORT)
+        two = self.run_scene("two", change={**SHORT, "Loading/Largest": "150"})
+        peak = max(float(row["load_max_N"]) for row in rows(two / "cycles.csv"))
+        self.assertAlmostEqual(peak, 150, delta=1e-6)
+        self.assertNotEqual((one / "cycles.csv").read_bytes(), (two / "cycles.csv").read_bytes())
+
+
+class Refusals(SceneTest):
+    def refused(self, *arguments):
+        """Exit 2, one line, and nothing of what is there changes."""
+        before = self.contents(self.folder)
+        done = self.trackbed(*arguments, exit_code=2)
+        lines = [line for line in done.stderr.splitlines() if line.strip()]
+        self.assertEqual(len(lines), 1, done.stderr)
+        after = self.contents(self.folder)
+        for name, content in before.items():
+            self.assertEqual(after.get(name), content, f"{name} was changed")
+        return lines[0]
+
+    def test_truncated_checkpoint(self):
+        run = self.run_scene("a", change=SHORT)
+        whole = (run / "checkpoint.h5").read_bytes()
+        sets = [f"--set={path}={value}" for path, value in {"Packing/Folder": "packings", **SHORT}.items()]
+        for content in (whole[: len(whole) // 2], whole[:100], b""):
+            (run / "checkpoint.h5").write_bytes(content)
+            self.assertIn("a/checkpoint.h5", self.refused("run", "tiny.prm", "--output", "a", "--resume", *sets))
+
+    def test_truncated_packing(self):
+        self.run_scene("a", change=SHORT)
+        (kept,) = (self.folder / "packings").glob("*.h5")
+        kept.write_bytes(kept.read_bytes()[: kept.stat().st_size // 2])
+        line = self.refused("run", "tiny.prm", "--output", "b", "--set=Packing/Folder=packings")
+        self.assertIn(f"packings/{kept.name}", line)
+
+    def test_changed_scene(self):
+        self.run_scene("a", change=SHORT)
+        line = self.refused("run", "tiny.prm", "--output", "a", "--resume", "--set=Grains/Density=2700")
+        self.assertIn("the scene has changed", line)
+
+    def test_time_step_over_the_limit(self):
+        line = self.refused("run", "tiny.prm", "--output", "a", "--set=Numerics/Time step=1e-3")
+        self.assertRegex(line, r"stability limit .* would do")
+
+
+if __name__ == "__main__":
+    unittest.main()
