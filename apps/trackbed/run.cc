@@ -1,10 +1,12 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/trackbed/commands.h"
 #include "apps/trackbed/output_folder.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/signals.h"
 #include "apps/trackbed/simulation/simulate.h"
+#include "base/error.h"
 
 namespace trackbed::apps {
 
@@ -14,7 +16,14 @@ int run_command(const RunOptions& o) {
   OutputFolder folder(path, earlier_run(o.resume, o.overwrite));
   catch_stop_signals();
   Progress progress;
-  const Ending ending = simulate(scene, {folder.path(), o.threads, o.resume, false}, progress);
+  Ending ending;
+  try {
+    ending = simulate(scene, {folder.path(), o.threads, o.resume, false}, progress);
+  } catch (const RunError& e) {
+    const std::string checkpoint = folder.file("checkpoint.h5");
+    if (!std::filesystem::exists(checkpoint)) throw;
+    throw RunError(std::string(e.what()) + " The state before it is in " + checkpoint + ".");
+  }
   if (ending == Ending::stopped) {
     std::fprintf(stderr, "trackbed: stopped; go on with: trackbed run %s --output %s --resume\n",
                  o.scene.c_str(), path.c_str());

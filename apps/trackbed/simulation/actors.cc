@@ -71,7 +71,7 @@ void pour_grains(Run& run, const std::vector<dem::GrainShape>& grains, bool besi
   std::vector<double> radii;
   for (const dem::GrainShape& g : grains) radii.push_back(g.radius);
   const dem::Placement p =
-      dem::place_loose(radii, space, present, 10, run.scene.grains.seed + (beside ? 77 : 0));
+      dem::place_loose(radii, space, present, 40, run.scene.grains.seed + (beside ? 77 : 0));
   const int before = w.bodies.grains;
   coupling::add_grains(w, grains, p.centre, p.turn, run.scene.grains.density, kGrain);
   dem::lower_grains(w.bodies, w.shapes, before, 0, run.layout.period, kClearance);

@@ -83,12 +83,14 @@ void Recorder::cycle(const Run& run, const Stage&, double load_start, double u_s
   cycles_.row({s.cycles, run.world.time, s.load_min, s.load_max, s.u_min, s.u_max, s.u_min,
                stiffness(s.load_max - load_start, s.u_max - u_start),
                stiffness(s.load_max - s.load_min, s.u_max - s.u_min)});
+  flush();  // to be watched while the run goes on
 }
 
 void Recorder::compaction(const Run& run) {
   const double density = bed_density(run), porosity = 1 - density / run.scene.grains.density;
   compaction_.row({run.stage.cycles, run.world.time, bed_height(run), density, porosity,
                    porosity / (1 - porosity)});
+  flush();
 }
 
 std::vector<int> Recorder::rows() const {
