@@ -8,13 +8,16 @@
 namespace trackbed::apps {
 namespace {
 
-/// deal.II writes "Contact modulus" as "Contact_20modulus".
+/// deal.II writes "Contact modulus" as "Contact_20modulus". It does so with what is neither letter
+/// nor digit only: "my_bed" stays.
 std::string demangled(const std::string& name) {
   std::string plain;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    if (name[i] == '_' && i + 2 < name.size() && std::isxdigit(name[i + 1]) &&
-        std::isxdigit(name[i + 2])) {
-      plain += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
+    const bool hex = name[i] == '_' && i + 2 < name.size() && std::isxdigit(name[i + 1]) &&
+                     std::isxdigit(name[i + 2]);
+    const int code = hex ? std::stoi(name.substr(i + 1, 2), nullptr, 16) : 0;
+    if (code < 128 && std::isprint(code) && !std::isalnum(code)) {
+      plain += static_cast<char>(code);
       i += 2;
     } else {
       plain += name[i];

@@ -12,6 +12,13 @@
 namespace trackbed::apps {
 namespace {
 
+/// Ten digits: more than any solid's coordinates have.
+std::string tidy(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
 double metres_of(const std::string& unit) { return unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : 1; }
 
 std::vector<dem::SieveMethod> methods_of(const std::string& name) {
@@ -30,7 +37,7 @@ void print_curve(const dem::SieveCurve& curve, const std::string& method,
   for (std::size_t i = 0; i < curve.sieve.size(); ++i) {
     const bool band = !curve.band_min.empty();
     std::printf("%s,%s,%s,%s,%s,%s\n", method.c_str(), shortest(curve.sieve[i]).c_str(),
-                shortest(passing[i]).c_str(), shortest(curve.passing[i]).c_str(),
+                tidy(passing[i]).c_str(), shortest(curve.passing[i]).c_str(),
                 band ? shortest(curve.band_min[i]).c_str() : "",
                 band ? shortest(curve.band_max[i]).c_str() : "");
   }
@@ -65,7 +72,7 @@ int sieve_command(const SieveOptions& options) {
       for (std::size_t m = 0; m < methods.size(); ++m)
         std::printf("%s,%s,%s\n",
                     CsvCell(std::filesystem::path(options.grains[i]).stem().string()).text.c_str(),
-                    dem::to_string(methods[m]).c_str(), shortest(sizes[m][i] / unit).c_str());
+                    dem::to_string(methods[m]).c_str(), tidy(sizes[m][i] / unit).c_str());
   } else {
     std::printf(
         "method,sieve_m,passing_percent,target_percent,band_min_percent,band_max_percent\n");

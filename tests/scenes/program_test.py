@@ -29,6 +29,39 @@ def plain(file):
     return re.sub(rb"<!--.*?-->", b"", file.read_bytes(), flags=re.DOTALL)
 
 
+def write_block(file, low, high, cells, volumes=("body",)):
+    """A Gmsh file of a block; its volumes, from the top down, share the cells over the height."""
+    nx, ny, nz = cells
+    sides = ("bottom", "top", "x_min", "x_max", "y_min", "y_max")
+    names = [f'2 {k + 1} "{name}"' for k, name in enumerate(sides)]
+    names += [f'3 {k + 7} "{name}"' for k, name in enumerate(volumes)]
+    node = {}
+    for k in range(nz + 1):
+        for j in range(ny + 1):
+            for i in range(nx + 1):
+                node[i, j, k] = len(node) + 1
+    lines = []
+    for (i, j, k), number in node.items():
+        at = [a + (b - a) * n / m for a, b, n, m in zip(low, high, (i, j, k), cells)]
+        lines.append(" ".join(map(str, [number, *at])))
+    cell, corners = [], [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    faces = [((0, 3, 2, 1), 2, 0), ((4, 5, 6, 7), 2, nz), ((0, 4, 7, 3), 0, 0), ((1, 2, 6, 5), 0, nx),
+             ((0, 1, 5, 4), 1, 0), ((3, 7, 6, 2), 1, ny)]
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                eight = [node[i + a, j + b, k + c] for a, b, c in corners]
+                for side, (four, axis, end) in enumerate(faces):
+                    if (i, j, k)[axis] + (end > 0) == end:
+                        cell.append(f"3 2 {side + 1} {side + 1} " + " ".join(str(eight[n]) for n in four))
+                volume = 7 + (nz - 1 - k) * len(volumes) // nz
+                cell.append(f"5 2 {volume} {volume} " + " ".join(map(str, eight)))
+    text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(names), *names, "$EndPhysicalNames",
+            "$Nodes", len(lines), *lines, "$EndNodes", "$Elements", len(cell),
+            *(f"{n + 1} {text}" for n, text in enumerate(cell)), "$EndElements", ""]
+    file.write_text("\n".join(map(str, text)))
+
+
 class SceneTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="trackbed_"))
@@ -115,6 +148,21 @@ class Runs(SceneTest):
                 self.assert_sound(run)
                 self.assertEqual("unknowns of the subgrade" in self.summary(run), model != "rigid")
         self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 1, "all on the same packing")
+
+
+    def test_meshes_from_files(self):
+        """The blocks of the scene, drawn elsewhere: the same answer as from parameters."""
+        layers = {**SHORT, "Subgrade/layered_elastic/Layers": "0.05:1e8:0.3:2000, 0.05:6e7:0.3:1900",
+                  "Subgrade/Element size": "0.05"}
+        plain_run = self.run_scene("plain", change=layers)
+        write_block(self.folder / "sleeper.msh", (-0.035, -0.04, 0), (0.035, 0.04, 0.03), (2, 2, 1))
+        write_block(self.folder / "soil.msh", (-0.065, -0.055, -0.1), (0.065, 0.055, 0), (3, 3, 2),
+                    ("layer_1", "layer_2"))
+        meshed = self.run_scene("meshed", change={**layers, "Sleeper/Mesh": "sleeper.msh",
+                                                  "Subgrade/layered_elastic/Mesh": "soil.msh"})
+        self.assert_sound(meshed)
+        for one, other in zip(rows(plain_run / "cycles.csv"), rows(meshed / "cycles.csv")):
+            self.assertAlmostEqual(float(one["u_max_m"]), float(other["u_max_m"]), delta=1e-6)
 
 
 class SameAnswer(SceneTest):

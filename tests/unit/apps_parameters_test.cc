@@ -1,6 +1,7 @@
 // From text to a checked scene.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -19,6 +20,19 @@
 
 namespace trackbed::apps {
 namespace {
+
+// A model as a user would add it: this is all of it.
+const fem::RegisterSubgrade here{
+    {"my_bed",
+     "Independent springs of a stiffness given as settlement under a pressure of 100 kPa.",
+     {{"Subgrade/my_bed", "Settlement", "1e-3", "m", "under 100 kPa", ParameterKind::number, 1e-9,
+       1, {}}},
+     [](const fem::SubgradeSite& site, const fem::Values& values) {
+       fem::PointBedParameters p = fem::points_under(site);
+       p.stiffness = 1e5 / fem::number(values, "Settlement");
+       p.mass = 400;
+       return fem::make_point_bed(p);
+     }}};
 
 class Parameters : public testing::Test {
  protected:
@@ -137,6 +151,20 @@ end)");
   const Layout l = make_layout(light);
   EXPECT_NEAR(make_subgrade_structure(heavy, l)->mass(),
               2 * make_subgrade_structure(light, l)->mass(), 1e-9);
+}
+
+TEST_F(Parameters, AModelOfTheUsersOwnIsOneRegistration) {
+  const auto names = subgrade_models();
+  EXPECT_TRUE(std::count(names.begin(), names.end(), "my_bed"));
+  const std::string file = write("a.prm", "subsection Subgrade\n  set Model = my_bed\nend\n");
+  EXPECT_EQ(read_scene(file).subgrade.values.at("Settlement"), "1e-3");
+  try {
+    read_scene(file, {"Subgrade/my_bed/Settlement=2"});
+    FAIL() << "2 m was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("from 1e-09 to 1 [m]"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Waveform, StartsAndEndsAtLeast) {
