@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem/grading/sieve_size.h"
+#include "dem/grain/clump.h"
 #include "dem/grain/polyhedron.h"
 
 namespace trackbed::dem {
@@ -16,24 +17,36 @@ struct LibraryParameters {
   std::uint64_t seed = 1;
   double spacing = 0.6;      ///< voronoi: see VoronoiParameters [-]
   double least_face = 0.05;  ///< voronoi: see VoronoiParameters [-]
-  /// Mean ratios of a grain's extents L >= I >= S along its principal axes: elongation I/L and
-  /// flatness S/I [-], in (0, 1]. The shapes are stretched along these axes, all by the same
-  /// factors, so they keep their scatter. 0: as generated.
-  double elongation = 0, flatness = 0;
+  /// jin_hull: see JinStonesParameters.
+  double length_over_height = 1.6, length_over_height_deviation = 0.2;  ///< [-]
+  int divisions = 2;                                                    ///< N_d [-]
+  double least_scale = 0.8, largest_scale = 1.2;                        ///< S_l, S_u [-]
+  /// Targets for the library's means, see ShapeTargets; 0: as generated.
+  double elongation = 0, flatness = 0, sphericity = 0, angularity = 0;
+  /// So many of the shapes are stretched until they are needles, so many others pressed until they
+  /// are flaky (see LibraryIndices): what a draw with given shares takes them from.
+  int needles = 0, flakes = 0;
   SieveMethod method = SieveMethod::exact;  ///< the size that becomes 1 m
 };
 
-/// "voronoi", "ellipsoid".
+/// "voronoi", "ellipsoid", "jin_hull" (the convex hulls of Jin's stones).
 const std::vector<std::string>& generator_names();
 
 /// Shapes of sieve size 1 m, the same for any number of threads. `progress` is told the share that
 /// is done (0 … 1), by one thread at a time. Throws InputError: unknown generator (with the nearest
-/// name), count < 1, ratio out of range.
+/// name), count < 1, targets out of range or out of reach, more needles and flakes than shapes.
 std::vector<GrainShape> make_library(const LibraryParameters&,
                                      const std::function<void(double share)>& progress = {});
 
 /// Solids of any origin (files) as shapes in their own size, sized in parallel.
 std::vector<GrainShape> size_grains(const std::vector<Polyhedron>&, SieveMethod,
                                     const std::function<void(double share)>& progress = {});
+
+/// Jin's stones (count, seed and the jin parameters) filled with spheres, sieve size 1 m each.
+/// `least_radius` is a share of the stone's W (0.12 for the paper's 47 spheres: 7 mm of 58 mm).
+/// Throws as make_library and fill_with_spheres.
+std::vector<ClumpShape> make_clump_library(const LibraryParameters&, double least_radius = 0.12,
+                                           double space_factor = 1.3,
+                                           const std::function<void(double share)>& progress = {});
 
 }  // namespace trackbed::dem

@@ -18,7 +18,30 @@ double width_along(const Polyhedron& body, const Vec3& d) {
   return high - low;
 }
 
+// Calls of(edge vector, area vectors of its two faces) for each edge.
+template <class Of>
+void for_edges(const Polyhedron& body, const std::vector<Vec3>& areas, Of of) {
+  std::map<std::pair<int, int>, int> owner;
+  for (int f = 0; f < int(body.faces.size()); ++f) {
+    const auto& face = body.faces[f];
+    for (size_t k = 0; k < face.size(); ++k) owner[{face[k], face[(k + 1) % face.size()]}] = f;
+  }
+  for (const auto& [edge, f] : owner)
+    if (edge.first < edge.second)
+      of(Vec3(body.vertices[edge.second] - body.vertices[edge.first]), areas[f],
+         areas[owner.at({edge.second, edge.first})]);
+}
+
 }  // namespace
+
+double angularity(const Polyhedron& body) {
+  double turning = 0, lengths = 0;
+  for_edges(body, face_areas(body), [&](const Vec3& e, const Vec3& a, const Vec3& b) {
+    turning += e.norm() * std::atan2(a.cross(b).norm(), a.dot(b));
+    lengths += e.norm();
+  });
+  return turning / lengths / std::acos(0.0);
+}
 
 ShapeIndices shape_indices(const Polyhedron& body) {
   ShapeIndices s;
@@ -43,22 +66,10 @@ ShapeIndices shape_indices(const Polyhedron& body) {
   s.elongation = s.intermediate / s.length;
   s.flatness = s.shortest / s.intermediate;
 
-  std::map<std::pair<int, int>, int> owner;
-  for (int f = 0; f < int(body.faces.size()); ++f) {
-    const auto& face = body.faces[f];
-    for (size_t k = 0; k < face.size(); ++k) owner[{face[k], face[(k + 1) % face.size()]}] = f;
-  }
+  s.angularity = angularity(body);
   std::vector<Vec3> edges;
-  double turning = 0, lengths = 0;
-  for (const auto& [edge, f] : owner) {
-    if (edge.first > edge.second) continue;
-    const Vec3 e = body.vertices[edge.second] - body.vertices[edge.first];
-    const Vec3 &a = areas[f], &b = areas[owner.at({edge.second, edge.first})];
-    turning += e.norm() * std::atan2(a.cross(b).norm(), a.dot(b));
-    lengths += e.norm();
-    edges.push_back(e.normalized());
-  }
-  s.angularity = turning / lengths / std::acos(0.0);
+  for_edges(body, areas,
+            [&](const Vec3& e, const Vec3&, const Vec3&) { edges.push_back(e.normalized()); });
   // The least width lies along a face normal or along the normal of two edges.
   for (size_t i = 0; i < edges.size(); ++i)
     for (size_t j = 0; j < i; ++j) {

@@ -24,6 +24,9 @@ struct ShapeIndices {
 /// Throws InputError when the grain has no volume.
 ShapeIndices shape_indices(const Polyhedron&);
 
+/// ShapeIndices::angularity alone.
+double angularity(const Polyhedron&);
+
 /// Shares of a library's volume [%].
 struct LibraryIndices {
   double flaky = 0;      ///< thickness (least width) < 0.6 of the sieve size (BS 812, TB/T 2140)
