@@ -1,11 +1,13 @@
 #include "dem/grading/draw.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
 #include "base/error.h"
+#include "dem/grading/grain_form.h"
 #include "dem/grain/random.h"
 
 namespace trackbed::dem {
@@ -51,14 +53,15 @@ double total(const std::vector<DrawnGrain>& grains) {
 }
 
 // Grains are added as long as that brings the volume nearer to the target.
-template <class Next>
-std::vector<DrawnGrain> fill(double target, Next next) {
+template <class Took, class Next>
+std::vector<DrawnGrain> fill(double target, Took took, Next next) {
   std::vector<DrawnGrain> grains;
   for (double sum = 0;;) {
     const DrawnGrain g = next();
     if (std::abs(sum + g.volume - target) >= std::abs(sum - target)) return grains;
     sum += g.volume;
     grains.push_back(g);
+    took(g);
   }
 }
 
@@ -92,6 +95,76 @@ void check(const std::vector<GrainShape>& library, const DrawParameters& p) {
                        " of the library is not sized");
 }
 
+// Deals shapes of each form in turn so that the forms' volumes stay in the ratio asked for.
+class FormDealer {
+ public:
+  FormDealer(const std::vector<GrainShape>& library, const DrawParameters& p, Random& random)
+      : random_(random), controlled_(p.needle_share > 0 || p.flaky_share > 0) {
+    if (!(p.needle_share >= 0) || !(p.flaky_share >= 0) || p.needle_share + p.flaky_share > 100)
+      throw InputError("gradation draw: needle and flaky shares must be 0 to 100 % together");
+    form_.assign(library.size(), 0);
+    if (!controlled_) return;
+    const std::vector<GrainForm> forms = grain_forms(library);
+    for (size_t k = 0; k < forms.size(); ++k) form_[k] = static_cast<int>(forms[k]);
+    share_ = {100 - p.needle_share - p.flaky_share, p.needle_share, p.flaky_share};
+    const char* const names[] = {"ordinary grains", "needles", "flakes"};
+    for (int f = 0; f < 3; ++f)
+      if (share_[f] > 0 && std::count(form_.begin(), form_.end(), f) == 0)
+        throw InputError("gradation draw: " + std::to_string(share_[f]) + " % " + names[f] +
+                         " are asked for, but the library holds none");
+  }
+
+  // The shapes to deal from.
+  void open(const std::vector<int>& members) {
+    decks_.clear();
+    for (int f = 0; f < 3; ++f) {
+      std::vector<int> cards;
+      for (int k : members)
+        if (form_[k] == f && (!controlled_ || share_[f] > 0)) cards.push_back(k);
+      decks_.emplace_back(std::move(cards), random_);
+    }
+  }
+  bool empty() const {
+    return std::all_of(decks_.begin(), decks_.end(), [](const Deck& d) { return d.empty(); });
+  }
+
+  // A shape of the form that lags most behind its share.
+  int deal() {
+    int next = -1;
+    for (int f = 0; f < 3; ++f)
+      if (!decks_[f].empty() && (next < 0 || lag(f) > lag(next))) next = f;
+    return decks_[next].deal();
+  }
+  void took(const DrawnGrain& g) { volume_[form_[g.shape]] += g.volume; }
+  bool controlled() const { return controlled_; }
+  int form(int shape) const { return form_[shape]; }
+
+ private:
+  double lag(int f) const {
+    return share_[f] / 100 * (volume_[0] + volume_[1] + volume_[2]) - volume_[f];
+  }
+  Random& random_;
+  bool controlled_;
+  std::vector<int> form_;
+  std::array<double, 3> share_ = {100, 0, 0};
+  std::array<double, 4> volume_ = {0, 0, 0, 0};
+  std::vector<Deck> decks_;
+};
+
+void check_shares(const GradationDraw& draw, const DrawParameters& p) {
+  const auto one = [&](const char* name, double wanted, double achieved) {
+    if (std::abs(wanted - achieved) <= p.tolerance) return;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "gradation draw: %.3g %% %s are asked for, %.3g %% achieved (%.3g allowed); ask "
+                  "for more volume or a wider tolerance",
+                  wanted, name, achieved, p.tolerance);
+    throw InputError(text);
+  };
+  one("needles", p.needle_share, draw.needle_percent);
+  one("flakes", p.flaky_share, draw.flaky_percent);
+}
+
 }  // namespace
 
 GradationDraw draw_gradation(const SieveCurve& curve, const std::vector<GrainShape>& library,
@@ -100,14 +173,16 @@ GradationDraw draw_gradation(const SieveCurve& curve, const std::vector<GrainSha
   Random random(p.seed);
   std::vector<int> all(library.size());
   std::iota(all.begin(), all.end(), 0);
-  Deck deck(all, random);
+  FormDealer dealer(library, p, random);
+  dealer.open(all);
+  const auto took = [&](const DrawnGrain& g) { dealer.took(g); };
   GradationDraw result;
   for (const SieveClass& wanted : sieve_classes(curve)) {
     DrawnClass c{wanted.low, wanted.high, 0.01 * wanted.percent * p.volume, 0, 0};
     std::vector<DrawnGrain> grains;
     if (c.target_volume > 0 && p.scale) {
-      grains = fill(c.target_volume, [&] {
-        const int index = deck.deal();
+      grains = fill(c.target_volume, took, [&] {
+        const int index = dealer.deal();
         return grain_of_size(index, library[index], class_size(c.low, c.high, random));
       });
       if (!grains.empty()) adjust_sizes(grains, library, c);
@@ -115,12 +190,12 @@ GradationDraw draw_gradation(const SieveCurve& curve, const std::vector<GrainSha
       std::vector<int> members;
       for (int i : all)
         if (library[i].sieve_size > c.low && library[i].sieve_size <= c.high) members.push_back(i);
-      if (members.empty())
+      dealer.open(members);
+      if (dealer.empty())
         throw InputError("gradation draw: no shape of the library falls into " + class_name(c) +
                          ", which holds " + std::to_string(wanted.percent) + " % of the mass");
-      Deck own(members, random);
-      grains = fill(c.target_volume, [&] {
-        const int index = own.deal();
+      grains = fill(c.target_volume, took, [&] {
+        const int index = dealer.deal();
         return grain_of_size(index, library[index], library[index].sieve_size);
       });
     }
@@ -144,6 +219,13 @@ GradationDraw draw_gradation(const SieveCurve& curve, const std::vector<GrainSha
   for (const DrawnGrain& g : result.grains) sizes.push_back(g.sieve), volumes.push_back(g.volume);
   result.volume = total(result.grains);
   result.achieved_passing = passing_percent(sizes, volumes, curve.sieve);
+  if (dealer.controlled()) {
+    for (const DrawnGrain& g : result.grains) {
+      if (dealer.form(g.shape) == 1) result.needle_percent += 100 * g.volume / result.volume;
+      if (dealer.form(g.shape) == 2) result.flaky_percent += 100 * g.volume / result.volume;
+    }
+    check_shares(result, p);
+  }
   return result;
 }
 

@@ -17,6 +17,11 @@ struct DrawParameters {
   /// true: a shape is scaled to a size inside its class (mass spread evenly over the class, as a
   /// straight piece of the sieve curve says). false: shapes are taken in the size they have.
   bool scale = true;
+  /// Needles and flakes (GrainForm) in percent of the volume. Both 0: shapes as the library has
+  /// them. Otherwise both are met: in every class a needle or flake of the same sieve size stands
+  /// in for an ordinary grain as often as the shares ask (Shao replaces grains of a class by
+  /// index). Shapes that are both are left out.
+  double needle_share = 0, flaky_share = 0;
 };
 
 struct DrawnGrain {
@@ -37,12 +42,16 @@ struct GradationDraw {
   std::vector<DrawnClass> classes;
   std::vector<double> achieved_passing;  ///< [%] at the curve's sieves
   double volume = 0;                     ///< of all grains [m3]
+  /// Achieved, percent of the volume; counted when a share was asked for, else 0.
+  double needle_percent = 0, flaky_percent = 0;
 };
 
 /// Shapes are drawn without repetition until the library is used up, then again. Equal seeds draw
 /// equal grains. Throws InputError: volume or tolerance not positive, empty library, a shape that
 /// is not sized, a class that no shape falls into (scale = false) or whose volume cannot be met
-/// within the tolerance (less than half of its smallest grain: ask for more volume).
+/// within the tolerance (less than half of its smallest grain: ask for more volume); shares that
+/// are negative, exceed 100 together, find no such shape in the library or are missed by more than
+/// the tolerance.
 GradationDraw draw_gradation(const SieveCurve&, const std::vector<GrainShape>& library,
                              const DrawParameters&);
 

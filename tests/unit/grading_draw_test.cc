@@ -8,6 +8,7 @@
 #include "dem/grading/draw.h"
 #include "dem/grading/sieve_size.h"
 #include "dem/grain/library.h"
+#include "dem/grain/shape_indices.h"
 
 namespace trackbed::dem {
 namespace {
@@ -112,6 +113,39 @@ TEST(GradationDraw, UnscaledShapesKeepTheirSize) {
     EXPECT_NEAR(c.achieved_volume, c.target_volume, 0.01 * p.volume);
 }
 
+TEST(GradationDraw, NeedleAndFlakyShares) {
+  LibraryParameters lp;
+  lp.count = 90, lp.needles = 20, lp.flakes = 20;
+  const auto library = make_library(lp);
+  const SieveCurve wide = named_curve("shao2017_wide");
+  for (const auto& [needle, flaky] : {std::pair(5., 0.), std::pair(0., 20.), std::pair(10., 15.)})
+    for (bool scale : {true, false}) {
+      std::vector<GrainShape> shapes;
+      for (size_t k = 0; k < library.size(); ++k)
+        for (double d : {0.03, 0.04, 0.05, 0.06, 0.07})
+          if (scale ? d == 0.03 : true) shapes.push_back(scaled(library[k], scale ? 1 : d));
+      DrawParameters p;
+      p.volume = shaos_volume;
+      p.scale = scale;
+      p.needle_share = needle, p.flaky_share = flaky;
+      const GradationDraw d = draw_gradation(wide, shapes, p);
+      double is_needle = 0, is_flaky = 0;
+      for (const DrawnGrain& g : d.grains) {
+        const ShapeIndices s = shape_indices(shapes[g.shape].body);
+        const double size = shapes[g.shape].sieve_size;
+        EXPECT_FALSE(s.diameter > 1.8 * size && s.width < 0.6 * size);
+        if (s.diameter > 1.8 * size) is_needle += 100 * g.volume / d.volume;
+        if (s.width < 0.6 * size) is_flaky += 100 * g.volume / d.volume;
+      }
+      EXPECT_NEAR(is_needle, needle, p.tolerance);
+      EXPECT_NEAR(is_flaky, flaky, p.tolerance);
+      EXPECT_NEAR(d.needle_percent, is_needle, 1e-9);
+      EXPECT_NEAR(d.flaky_percent, is_flaky, 1e-9);
+      for (size_t i = 0; i < wide.sieve.size(); ++i)
+        EXPECT_NEAR(d.achieved_passing[i], wide.passing[i], 1);
+    }
+}
+
 void refused(const SieveCurve& curve, const std::vector<GrainShape>& library,
              const DrawParameters& p, const std::string& part) {
   try {
@@ -140,6 +174,11 @@ TEST(GradationDraw, RefusesImpossibleRequests) {
   DrawParameters little = p;
   little.volume = 1e-3;  // 5 % of a litre is less than half of a grain of 63 to 80 mm
   refused(wide, boxes(), little, "class 63 to 80 mm misses");
+  DrawParameters needles = p;
+  needles.needle_share = 5;
+  refused(wide, boxes(), needles, "needles are asked for, but the library holds none");
+  needles.flaky_share = 96;
+  refused(wide, boxes(), needles, "must be 0 to 100 % together");
 }
 
 }  // namespace
