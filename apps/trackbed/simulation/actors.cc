@@ -27,16 +27,9 @@ double largest_sieve(const dem::ShapeTable& shapes) {
   return largest;
 }
 
-double least_sieve(const dem::ShapeTable& shapes) {
-  double least = largest_sieve(shapes);
-  for (int k = 0; k < shapes.size(); ++k)
-    if (shapes.shape(k).sieve_size > 0) least = std::min(least, shapes.shape(k).sieve_size);
-  return least;
-}
-
-// A few overlaps deep: the largest that the run allows, for its smallest grain.
+// Deeper than the deepest overlap that the run allows, of its largest grain.
 double shell_depth(const Run& run) {
-  return std::max(2 * run.scene.contact.largest_overlap, 0.1) * least_sieve(run.world.shapes);
+  return 1.2 * run.scene.contact.largest_overlap * largest_sieve(run.world.shapes);
 }
 
 }  // namespace
