@@ -34,6 +34,29 @@ struct Cones {
   }
 };
 
+// The same for a tetrahedron about the mean of its corners, where the first moments vanish:
+// V/20 sum_i y_i y_i^T.
+OverlapMoments tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const double x = 0.25 * (a.x() + b.x() + c.x() + d.x()),
+               y = 0.25 * (a.y() + b.y() + c.y() + d.y()),
+               z = 0.25 * (a.z() + b.z() + c.z() + d.z());
+  const double ux = b.x() - a.x(), uy = b.y() - a.y(), uz = b.z() - a.z();
+  const double vx = c.x() - a.x(), vy = c.y() - a.y(), vz = c.z() - a.z();
+  const double wx = d.x() - a.x(), wy = d.y() - a.y(), wz = d.z() - a.z();
+  OverlapMoments m;
+  m.volume = -((uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz) / 6;
+  m.about = Vec3(x, y, z);
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  for (const Vec3* p : {&a, &b, &c, &d}) {
+    const double px = p->x() - x, py = p->y() - y, pz = p->z() - z;
+    xx += px * px, yy += py * py, zz += pz * pz;
+    xy += px * py, xz += px * pz, yz += py * pz;
+  }
+  const double w = m.volume / 20;
+  m.second << w * xx, w * xy, w * xz, w * xy, w * yy, w * yz, w * xz, w * yz, w * zz;
+  return m;
+}
+
 // How much a workspace holds, to take back what was appended since.
 struct Mark {
   std::size_t points, a, b;
@@ -57,6 +80,12 @@ bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pos
   if (small == Clipped::too_large) {
     mark.back(work);
     if (!clip_any(body_a, body_b, work)) return false;
+  }
+
+  if (small == Clipped::tetrahedron && !(moments.volume > 0)) {
+    const Vec3* p = work.points.data() + mark.points;
+    const OverlapMoments m = tetrahedron(p[0], p[1], p[2], p[5]);
+    if (m.volume > 0) return moments = m, true;
   }
 
   Vec3 about = moments.about;

@@ -48,9 +48,10 @@ inline void add_piece(int face, int n, const double* x, const double* y, const d
   pieces.push_back({face, static_cast<int>(first), n, Vec3(0.5 * ax, 0.5 * ay, 0.5 * az)});
 }
 
-enum class Clipped { nothing, pieces, too_large };
+/// tetrahedron: four triangles, the corners are points 0, 1, 2 and 5 of those appended, and the
+/// first triangle is 0, 1, 2. too_large: pieces may have been appended and must be taken back.
+enum class Clipped { nothing, pieces, tetrahedron, too_large };
 
-/// too_large: pieces may have been appended and must be taken back.
 Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace&);
 
 /// False when nothing overlaps for certain.

@@ -3,6 +3,10 @@
 namespace trackbed::dem {
 namespace {
 
+// Rounding of distances is about 1e-16 of the size: a rise above 1e-6 of it keeps crossings to
+// 1e-10 of an edge, and what is clear by 1e-13 is certain.
+constexpr double kLeastRise = 1e-6, kClear = 1e-7;  // the latter of the former
+
 struct Point {
   double x, y, z;
 };
@@ -17,6 +21,12 @@ double distance(const Side& s, int face, const Point& p) {
   return s.nx[face] * p.x + s.ny[face] * p.y + s.nz[face] * p.z - s.offset[face];
 }
 
+bool inside(const Side& s, const Point& p, double clear) {
+  for (std::uint64_t rest = s.faces; rest; rest &= rest - 1)
+    if (!(distance(s, __builtin_ctzll(rest), p) < -clear)) return false;
+  return true;
+}
+
 // The part of an edge inside the planes of `s` that may matter: from plane `in` at t0 to plane
 // `out` at t1; -1 where it starts or ends inside.
 struct Span {
@@ -25,14 +35,13 @@ struct Span {
   double rise_in = 0, rise_out = 0;
 
   // Both ends are clear of the other end's plane by more than rounding.
-  bool clear(double least) const {
+  bool clear(double by) const {
     const double t = t1 - t0;
-    return -t * rise_in > kClear * least && t * rise_out > kClear * least;
+    return -t * rise_in > by && t * rise_out > by;
   }
-  static constexpr double kClear = 1e-7;
 };
 
-// False when nothing is inside or a plane is met at a grazing angle, rise < least.
+// False when nothing is inside or a plane is met at a grazing angle, rise <= least.
 bool span(const Side& s, const Point& p, const Point& q, double least, Span& r) {
   for (std::uint64_t rest = s.faces; rest; rest &= rest - 1) {
     const int f = __builtin_ctzll(rest);
@@ -57,22 +66,21 @@ void add(int face, const Point& p, const Point& q, const Point& r, OverlapWorksp
   add_piece(face, 3, x, y, z, work, pieces);
 }
 
-// Vertex v of `own` in one face of `other`.
-bool vertex_in_face(const ConvexView& view, const Side& own, int v, const Side& other, double least,
-                    OverlapWorkspace& work, std::vector<OverlapPiece>& own_pieces,
-                    std::vector<OverlapPiece>& other_pieces) {
+// Vertex v of `own` in one face of `other`; returns the number of corners of the overlap, or 0.
+int vertex_in_face(const ConvexView& view, const Side& own, int v, const Side& other, double least,
+                   OverlapWorkspace& work, std::vector<OverlapPiece>& own_pieces,
+                   std::vector<OverlapPiece>& other_pieces) {
   constexpr int kEdges = 8;
   const Point tip = vertex(own, v);
-  for (std::uint64_t rest = other.faces; rest; rest &= rest - 1)
-    if (!(distance(other, __builtin_ctzll(rest), tip) < -Span::kClear * least)) return false;
+  if (!inside(other, tip, kClear * least)) return 0;
   const int begin = view.neighbor_begin[v], edges = view.neighbor_begin[v + 1] - begin;
-  if (edges > kEdges) return false;
+  if (edges > kEdges) return 0;
   double x[kEdges], y[kEdges], z[kEdges];
   int face = -1;
   for (int k = 0; k < edges; ++k) {
     const Point end = vertex(own, view.neighbor[begin + k]);
     Span s;
-    if (!span(other, tip, end, least, s) || s.out < 0 || (face >= 0 && s.out != face)) return false;
+    if (!span(other, tip, end, least, s) || s.out < 0 || (face >= 0 && s.out != face)) return 0;
     face = s.out;
     const Point p = between(tip, end, s.t1);
     x[edges - 1 - k] = p.x, y[edges - 1 - k] = p.y, z[edges - 1 - k] = p.z;
@@ -82,7 +90,7 @@ bool vertex_in_face(const ConvexView& view, const Side& own, int v, const Side& 
     add(view.left_face[begin + k], tip, {x[i], y[i], z[i]}, {x[j], y[j], z[j]}, work, own_pieces);
   }
   add_piece(face, edges, x, y, z, work, other_pieces);
-  return true;
+  return edges + 1;
 }
 
 struct Edge {
@@ -111,14 +119,14 @@ bool edge_on_edge(const PlacedBody& a, const Side& sa, const PlacedBody& b, cons
   return any_edge(a.view, sa, [&](const Edge& ea) {
     const Point pa = vertex(sa, ea.from), qa = vertex(sa, ea.to);
     Span in_b;
-    if (!span(sb, pa, qa, least, in_b) || !in_b.clear(least)) return false;
+    if (!span(sb, pa, qa, least, in_b) || !in_b.clear(kClear * least)) return false;
     return any_edge(b.view, sb, [&](const Edge& eb) {
       if (!(eb.left == in_b.in && eb.right == in_b.out) &&
           !(eb.left == in_b.out && eb.right == in_b.in))
         return false;
       const Point pb = vertex(sb, eb.from), qb = vertex(sb, eb.to);
       Span in_a;
-      if (!span(sa, pb, qb, least, in_a) || !in_a.clear(least)) return false;
+      if (!span(sa, pb, qb, least, in_a) || !in_a.clear(kClear * least)) return false;
       const bool forward = in_a.in == ea.left && in_a.out == ea.right;
       if (!forward && !(in_a.in == ea.right && in_a.out == ea.left)) return false;
       const Point p1 = between(pa, qa, in_b.t0), p2 = between(pa, qa, in_b.t1);
@@ -144,18 +152,19 @@ int extreme(const Side& s, double up) {
 
 }  // namespace
 
-bool clip_simple(const PlacedBody& a, const Side& sa, const PlacedBody& b, const Side& sb,
-                 OverlapWorkspace& work) {
+Clipped clip_simple(const PlacedBody& a, const Side& sa, const PlacedBody& b, const Side& sb,
+                    OverlapWorkspace& work) {
   for (const ConvexView* v : {&a.view, &b.view})
-    if (!v->neighbor || !v->left_face) return false;
-  if (!sa.kept || !sb.kept) return false;
-  // Rounding of distances is about 1e-16 of the size: a rise above `least` keeps t to 1e-10.
-  const double least = 1e-6 * (a.view.radius < b.view.radius ? a.view.radius : b.view.radius);
-  return vertex_in_face(a.view, sa, extreme(sa, 1), sb, least, work, work.a_pieces,
-                        work.b_pieces) ||
-         vertex_in_face(b.view, sb, extreme(sb, -1), sa, least, work, work.b_pieces,
-                        work.a_pieces) ||
-         edge_on_edge(a, sa, b, sb, least, work);
+    if (!v->neighbor || !v->left_face) return Clipped::nothing;
+  if (!sa.kept || !sb.kept) return Clipped::nothing;
+  const double least = kLeastRise * (a.view.radius < b.view.radius ? a.view.radius : b.view.radius);
+  int corners =
+      vertex_in_face(a.view, sa, extreme(sa, 1), sb, least, work, work.a_pieces, work.b_pieces);
+  if (!corners)
+    corners =
+        vertex_in_face(b.view, sb, extreme(sb, -1), sa, least, work, work.b_pieces, work.a_pieces);
+  if (!corners && edge_on_edge(a, sa, b, sb, least, work)) corners = 4;
+  return corners == 0 ? Clipped::nothing : corners == 4 ? Clipped::tetrahedron : Clipped::pieces;
 }
 
 }  // namespace trackbed::dem

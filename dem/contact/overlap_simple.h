@@ -28,8 +28,9 @@ struct Side {
   double high = 0, low = 0;
 };
 
-/// Appends the pieces and returns true if the overlap is one of the two kinds.
-bool clip_simple(const PlacedBody& a, const Side&, const PlacedBody& b, const Side&,
-                 OverlapWorkspace&);
+/// Appends the pieces and returns `tetrahedron` or `pieces` if the overlap is one of the two kinds,
+/// else `nothing`. The faces are to be culled first: it looks at every edge between them.
+Clipped clip_simple(const PlacedBody& a, const Side&, const PlacedBody& b, const Side&,
+                    OverlapWorkspace&);
 
 }  // namespace trackbed::dem

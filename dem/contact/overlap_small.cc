@@ -76,27 +76,35 @@ void add_crossing(Side& s, int i, int j, double cut) {
   s.pz[k] = cut;
 }
 
-// The corners of the slab's part and the faces that reach into it.
+// The vertices inside the slab and the faces that reach into it.
 template <int up>
 void slab_part(const ConvexView& v, double cut, Side& s) {
-  const std::uint64_t kept = s.kept = kept_vertices<up>(v, s, cut);
-  if (v.vertex_faces && v.neighbor) {
-    for (std::uint64_t rest = kept; rest; rest &= rest - 1) {
-      const int i = __builtin_ctzll(rest);
-      add_corner(s, i);
-      s.faces |= v.vertex_faces[i];
-      for (int k = v.neighbor_begin[i]; k < v.neighbor_begin[i + 1]; ++k)
-        if (!(kept >> v.neighbor[k] & 1)) add_crossing(s, i, v.neighbor[k], cut);
-    }
+  s.kept = kept_vertices<up>(v, s, cut);
+  if (v.vertex_faces) {
+    for (std::uint64_t rest = s.kept; rest; rest &= rest - 1)
+      s.faces |= v.vertex_faces[__builtin_ctzll(rest)];
     return;
   }
-  for (std::uint64_t rest = kept; rest; rest &= rest - 1) add_corner(s, __builtin_ctzll(rest));
+  for (int f = 0; f < v.faces; ++f)
+    for (int k = v.loop_begin[f]; k < v.loop_begin[f + 1]; ++k)
+      s.faces |= (s.kept >> v.loop[k] & 1) << f;
+}
+
+// The corners of the slab's part.
+void slab_corners(const ConvexView& v, double cut, Side& s) {
+  for (std::uint64_t rest = s.kept; rest; rest &= rest - 1) {
+    const int i = __builtin_ctzll(rest);
+    add_corner(s, i);
+    if (!v.neighbor) continue;
+    for (int k = v.neighbor_begin[i]; k < v.neighbor_begin[i + 1]; ++k)
+      if (!(s.kept >> v.neighbor[k] & 1)) add_crossing(s, i, v.neighbor[k], cut);
+  }
+  if (v.neighbor) return;
   for (int f = 0; f < v.faces; ++f)
     for (int begin = v.loop_begin[f], end = v.loop_begin[f + 1], k = begin; k < end; ++k) {
       const int i = v.loop[k], j = v.loop[k + 1 < end ? k + 1 : begin];
-      if (!(kept >> i & 1)) continue;
-      s.faces |= 1ull << f;
-      if (!(kept >> j & 1)) add_crossing(s, i, j, cut);  // its other face sees the edge from j
+      // Its other face sees the edge from j to i.
+      if ((s.kept >> i & 1) && !(s.kept >> j & 1)) add_crossing(s, i, j, cut);
     }
 }
 
@@ -229,9 +237,12 @@ Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace& w
   slab_part<-1>(b.view, cut.b, side_b);
   planes_to_frame(a, side_a);
   planes_to_frame(b, side_b);
+  slab_corners(a.view, cut.a, side_a);
+  slab_corners(b.view, cut.b, side_b);
   cull_faces(side_a, side_b, cut.slack);
   cull_faces(side_b, side_a, cut.slack);
-  if (clip_simple(a, side_a, b, side_b, work)) return Clipped::pieces;
+  const Clipped simple = clip_simple(a, side_a, b, side_b, work);
+  if (simple != Clipped::nothing) return simple;
   if (!add_pieces<1>(a, side_a, side_b, cut.a, work, work.a_pieces) ||
       !add_pieces<-1>(b, side_b, side_a, cut.b, work, work.b_pieces))
     return Clipped::too_large;

@@ -6,35 +6,65 @@
 namespace trackbed::dem {
 namespace {
 
-// Over one triangle of unit area: mean pressure and mean of p y.
-struct Means {
-  double p;
-  Vec3 py;
+struct Point {
+  double x, y, z;
 };
 
-Means means(const Vec3 (&y)[3], const NormalResponse& r) {
-  const Vec3 Q0 = r.Q * y[0], Q1 = r.Q * y[1], Q2 = r.Q * y[2];
-  const double q00 = y[0].dot(Q0), q11 = y[1].dot(Q1), q22 = y[2].dot(Q2);
-  const double q01 = y[0].dot(Q1), q12 = y[1].dot(Q2), q20 = y[2].dot(Q0);
+double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Point minus(const Vec3& a, const Vec3& b) { return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()}; }
+Vec3 vector(const Point& p) { return {p.x, p.y, p.z}; }
+
+// A corner of a triangle relative to c, and Q times it.
+struct Corner {
+  Point y, Qy;
+  double q;  ///< y^T Q y
+};
+
+Corner corner(const Vec3& p, const Vec3& c, const Mat3& Q) {
+  Corner r;
+  r.y = minus(p, c);
+  r.Qy = {Q(0, 0) * r.y.x + Q(0, 1) * r.y.y + Q(0, 2) * r.y.z,
+          Q(1, 0) * r.y.x + Q(1, 1) * r.y.y + Q(1, 2) * r.y.z,
+          Q(2, 0) * r.y.x + Q(2, 1) * r.y.y + Q(2, 2) * r.y.z};
+  r.q = dot(r.y, r.Qy);
+  return r;
+}
+
+// Over one triangle: vector area, mean pressure and mean of p y.
+struct Means {
+  Point area, py;
+  double p;
+};
+
+Means means(const Corner& a, const Corner& b, const Corner& c, double p0) {
   Means m;
-  m.p = r.p0 + (q00 + q11 + q22 + q01 + q12 + q20) / 6;
-  m.py = (r.p0 / 3) * (y[0] + y[1] + y[2]) +
-         (q00 / 10 + (2 * q01 + 2 * q20 + q11 + q22 + q12) / 30) * y[0] +
-         (q11 / 10 + (2 * q12 + 2 * q01 + q22 + q00 + q20) / 30) * y[1] +
-         (q22 / 10 + (2 * q20 + 2 * q12 + q00 + q11 + q01) / 30) * y[2];
+  const Point u = {b.y.x - a.y.x, b.y.y - a.y.y, b.y.z - a.y.z};
+  const Point v = {c.y.x - a.y.x, c.y.y - a.y.y, c.y.z - a.y.z};
+  m.area = {0.5 * (u.y * v.z - u.z * v.y), 0.5 * (u.z * v.x - u.x * v.z),
+            0.5 * (u.x * v.y - u.y * v.x)};
+  const double ab = dot(a.y, b.Qy), bc = dot(b.y, c.Qy), ca = dot(c.y, a.Qy);
+  const double all = a.q + b.q + c.q + ab + bc + ca;
+  m.p = p0 + all / 6;
+  // q_aa/10 + (2 ab + 2 ac + bb + cc + bc)/30 = (all + 2 aa + ab + ac)/30
+  const double wa = p0 / 3 + (all + 2 * a.q + ab + ca) / 30;
+  const double wb = p0 / 3 + (all + 2 * b.q + ab + bc) / 30;
+  const double wc = p0 / 3 + (all + 2 * c.q + bc + ca) / 30;
+  m.py = {wa * a.y.x + wb * b.y.x + wc * c.y.x, wa * a.y.y + wb * b.y.y + wc * c.y.y,
+          wa * a.y.z + wb * b.y.z + wc * c.y.z};
   return m;
 }
 
-// f(triangle relative to c, its vector area) for the fan of a piece.
+// f(means) for the triangles of a piece's fan.
 template <class F>
-void for_each_triangle(const OverlapWorkspace& work, const OverlapPiece& piece, const Vec3& c,
-                       F f) {
+void for_each_triangle(const OverlapWorkspace& work, const OverlapPiece& piece,
+                       const OverlapShape& s, const NormalResponse& r, F f) {
   const Vec3* p = work.points.data() + piece.first;
-  Vec3 y[3] = {p[0] - c, p[1] - c, Vec3::Zero()};
+  const Corner first = corner(p[0], s.centroid, r.Q);
+  Corner last = corner(p[1], s.centroid, r.Q);
   for (int i = 2; i < piece.count; ++i) {
-    y[2] = p[i] - c;
-    f(y, Vec3(0.5 * (y[1] - y[0]).cross(y[2] - y[0])));
-    y[1] = y[2];
+    const Corner next = corner(p[i], s.centroid, r.Q);
+    f(first, last, next, means(first, last, next, r.p0));
+    last = next;
   }
 }
 
@@ -42,10 +72,15 @@ void for_each_triangle(const OverlapWorkspace& work, const OverlapPiece& piece, 
 
 OverlapShape make_shape(const OverlapMoments& m, const OverlapWorkspace& work) {
   OverlapShape s;
-  const Vec3 shift = m.volume > 0 ? Vec3(m.first / m.volume) : Vec3(Vec3::Zero());
+  const double inverse = m.volume > 0 ? 1 / m.volume : 0;
+  const double x = m.first.x() * inverse, y = m.first.y() * inverse, z = m.first.z() * inverse;
   s.volume = m.volume;
-  s.centroid = m.about + shift;
-  s.second_moment = m.second - m.first * shift.transpose();
+  s.centroid = Vec3(m.about.x() + x, m.about.y() + y, m.about.z() + z);
+  const double xy = m.second(0, 1) - m.first.x() * y, xz = m.second(0, 2) - m.first.x() * z,
+               yz = m.second(1, 2) - m.first.y() * z;
+  s.second_moment << m.second(0, 0) - m.first.x() * x, xy, xz,  //
+      xy, m.second(1, 1) - m.first.y() * y, yz,                 //
+      xz, yz, m.second(2, 2) - m.first.z() * z;
   s.area = Vec3::Zero();
   for (const OverlapPiece& piece : work.a_pieces) s.area += piece.area;
   double high = -std::numeric_limits<double>::infinity(), low = -high;
@@ -57,15 +92,18 @@ OverlapShape make_shape(const OverlapMoments& m, const OverlapWorkspace& work) {
 PressureForce integrate_pressure(const OverlapWorkspace& work,
                                  const std::vector<OverlapPiece>& pieces, const OverlapShape& s,
                                  const NormalResponse& r) {
-  PressureForce total;
+  double fx = 0, fy = 0, fz = 0, mx = 0, my = 0, mz = 0;
+  const double on_x = r.acts_on.x(), on_y = r.acts_on.y(), on_z = r.acts_on.z();
   for (const OverlapPiece& piece : pieces)
-    for_each_triangle(work, piece, s.centroid, [&](const Vec3(&y)[3], const Vec3& area) {
-      const Means m = means(y, r);
-      const Vec3 acts = area.cwiseProduct(r.acts_on);
-      total.force += m.p * acts;
-      total.moment += m.py.cross(acts);
-    });
-  return total;
+    for_each_triangle(
+        work, piece, s, r, [&](const Corner&, const Corner&, const Corner&, const Means& m) {
+          const double ax = on_x * m.area.x, ay = on_y * m.area.y, az = on_z * m.area.z;
+          fx += m.p * ax, fy += m.p * ay, fz += m.p * az;
+          mx += m.py.y * az - m.py.z * ay;
+          my += m.py.z * ax - m.py.x * az;
+          mz += m.py.x * ay - m.py.y * ax;
+        });
+  return {Vec3(fx, fy, fz), Vec3(mx, my, mz)};
 }
 
 PiecePressure integrate_pressure(const OverlapWorkspace& work, const OverlapPiece& piece,
@@ -74,13 +112,13 @@ PiecePressure integrate_pressure(const OverlapWorkspace& work, const OverlapPiec
   total.area = piece.area.norm();
   if (!(total.area > 0)) return {};
   total.normal = piece.area / total.area;
-  for_each_triangle(work, piece, s.centroid, [&](const Vec3(&y)[3], const Vec3& area) {
-    const double size = area.dot(total.normal);
-    const Means m = means(y, r);
-    total.area_first += (size / 3) * (y[0] + y[1] + y[2]);
-    total.zeroth += size * m.p;
-    total.first += size * m.py;
-  });
+  for_each_triangle(work, piece, s, r,
+                    [&](const Corner& a, const Corner& b, const Corner& c, const Means& m) {
+                      const double size = vector(m.area).dot(total.normal);
+                      total.area_first += (size / 3) * (vector(a.y) + vector(b.y) + vector(c.y));
+                      total.zeroth += size * m.p;
+                      total.first += size * vector(m.py);
+                    });
   return total;
 }
 

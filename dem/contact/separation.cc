@@ -1,29 +1,44 @@
 #include "dem/contact/separation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "dem/contact/eight.h"
 
 namespace trackbed::dem {
 namespace {
 
-// Largest n.p over the vertices, n in body axes. Eight running maxima, so that it vectorises.
+// Largest n.p over the vertices, n in body axes.
 double top(const ConvexView& v, const Vec3& n) {
-  constexpr int W = 8;
-  double best[W];
-  for (int l = 0; l < W; ++l) best[l] = -std::numeric_limits<double>::infinity();
+  const Eight nx(n.x()), ny(n.y()), nz(n.z());
+  Eight best(-std::numeric_limits<double>::infinity());
   int i = 0;
-  for (; i + W <= v.padded; i += W)
-    for (int l = 0; l < W; ++l) {
-      const double d = n.x() * v.x[i + l] + n.y() * v.y[i + l] + n.z() * v.z[i + l];
-      best[l] = d > best[l] ? d : best[l];
-    }
-  for (; i < v.vertices; ++i) {
-    const double d = n.x() * v.x[i] + n.y() * v.y[i] + n.z() * v.z[i];
-    best[0] = d > best[0] ? d : best[0];
+  for (; i + 8 <= v.padded; i += 8)
+    best = max(best, fma(nx, Eight::load(v.x + i),
+                         fma(ny, Eight::load(v.y + i), nz * Eight::load(v.z + i))));
+  double most = largest(best);
+  for (; i < v.vertices; ++i)
+    most = std::max(most, n.x() * v.x[i] + n.y() * v.y[i] + n.z() * v.z[i]);
+  return most;
+}
+
+// The face whose normal is nearest to n (body axes) if its cosine exceeds `nearest`, else -1.
+int nearest_face(const ConvexView& v, const Vec3& n, double& nearest) {
+  if (v.planes_padded) {  // most often none is near
+    const Eight nx(n.x()), ny(n.y()), nz(n.z());
+    Eight best(-1.0);
+    for (int f = 0; f < v.faces; f += 8)
+      best = max(best, fma(nx, Eight::load(v.nx + f),
+                           fma(ny, Eight::load(v.ny + f), nz * Eight::load(v.nz + f))));
+    if (!(largest(best) > nearest)) return -1;
   }
-  for (int half = W / 2; half > 0; half /= 2)
-    for (int l = 0; l < half; ++l) best[l] = best[l + half] > best[l] ? best[l + half] : best[l];
-  return best[0];
+  int face = -1;
+  for (int f = 0; f < v.faces; ++f) {
+    const double c = n.x() * v.nx[f] + n.y() * v.ny[f] + n.z() * v.nz[f];
+    if (c > nearest) nearest = c, face = f;
+  }
+  return face;
 }
 
 int top_vertex(const ConvexView& v, const Vec3& n) {
@@ -204,15 +219,7 @@ ContactFrame contact_frame(const ConvexView& a, const Pose& pa, const ConvexView
   // A flat overlap lies between two nearly parallel faces: take the nearest face's own normal.
   const Vec3 na = pa.R.transpose() * n, nb = -(pb.R.transpose() * n);
   double nearest = 0.99;
-  int face_a = -1, face_b = -1;
-  for (int f = 0; f < a.faces; ++f) {
-    const double c = na.x() * a.nx[f] + na.y() * a.ny[f] + na.z() * a.nz[f];
-    if (c > nearest) nearest = c, face_a = f;
-  }
-  for (int f = 0; f < b.faces; ++f) {
-    const double c = nb.x() * b.nx[f] + nb.y() * b.ny[f] + nb.z() * b.nz[f];
-    if (c > nearest) nearest = c, face_b = f;
-  }
+  const int face_a = nearest_face(a, na, nearest), face_b = nearest_face(b, nb, nearest);
   if (face_b >= 0)
     n = -(pb.R * Vec3(b.nx[face_b], b.ny[face_b], b.nz[face_b]));
   else if (face_a >= 0)

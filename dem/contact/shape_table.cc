@@ -10,7 +10,7 @@
 namespace trackbed::dem {
 namespace {
 
-constexpr int kPad = 8;  // doubles of one 512-bit register
+int padded_to_eight(int n) { return (n + 7) / 8 * 8; }
 
 struct Plane {
   Vec3 normal;
@@ -76,121 +76,73 @@ int ShapeTable::add(const GrainShape& shape) {
   }
   for (std::vector<Corner>& corners_of : corner_at) sort_around(corners_of);
 
-  Begin b;
-  b.vertex = d_.x.size();
-  b.vertices = n;
-  b.padded = (n + kPad - 1) / kPad * kPad;
-  b.face = d_.nx.size();
-  b.faces = faces;
-  b.loop_begin = d_.loop_begin.size();
-  b.loop = d_.loop.size();
-  b.neighbor_begin = d_.neighbor_begin.size();
-  b.neighbor = d_.neighbor.size();
-  b.bits = d_.vertex_faces.size();
-  b.corners = d_.corners.size();
-  b.words = (faces + 63) / 64;
-  b.small_faces = true;
-  for (const auto& face : body.faces) b.small_faces = b.small_faces && face.size() <= 8;
-  d_.begin.push_back(b);
+  const int padded = padded_to_eight(n), padded_faces = padded_to_eight(faces);
+  const int words = (faces + 63) / 64;
+  bool small_faces = true;
+  for (const auto& face : body.faces) small_faces = small_faces && face.size() <= 8;
 
-  for (int v = 0; v < b.padded; ++v) {
+  auto arrays = std::make_shared<Arrays>();
+  const std::size_t reals = 3 * padded + 4 * padded_faces + (small_faces ? 24 * faces : 0);
+  arrays->reals.resize(reals / 8);
+  double* real = arrays->reals.front().value;
+  ConvexView view;
+  const auto take = [&real](int count) { return std::exchange(real, real + count); };
+  double *x = take(padded), *y = take(padded), *z = take(padded);
+  for (int v = 0; v < padded; ++v) {
     const Vec3& p = body.vertices[std::min(v, n - 1)];
-    d_.x.push_back(p.x());
-    d_.y.push_back(p.y());
-    d_.z.push_back(p.z());
+    x[v] = p.x(), y[v] = p.y(), z[v] = p.z();
   }
-  d_.vertex_faces.resize(d_.vertex_faces.size() + std::size_t(n) * b.words, 0);
-  std::uint64_t* bits = d_.vertex_faces.data() + b.bits;
-  for (int f = 0; f < (faces + kPad - 1) / kPad * kPad; ++f) {
+  double *nx = take(padded_faces), *ny = take(padded_faces), *nz = take(padded_faces),
+         *offset = take(padded_faces);
+  for (int f = 0; f < padded_faces; ++f) {
     const Plane& plane = planes[std::min(f, faces - 1)];
-    d_.nx.push_back(plane.normal.x());
-    d_.ny.push_back(plane.normal.y());
-    d_.nz.push_back(plane.normal.z());
-    d_.offset.push_back(plane.offset);
+    nx[f] = plane.normal.x(), ny[f] = plane.normal.y(), nz[f] = plane.normal.z();
+    offset[f] = plane.offset;
   }
-  int loop_end = 0;
-  for (int f = 0; f < faces; ++f) {
-    d_.loop_begin.push_back(static_cast<std::uint16_t>(loop_end));
-    for (int v : body.faces[f]) {
-      d_.loop.push_back(static_cast<std::uint16_t>(v));
-      bits[v * b.words + f / 64] |= std::uint64_t(1) << (f % 64);
-      ++loop_end;
-    }
-    for (int axis = 0; axis < 3 && b.small_faces; ++axis)
-      for (std::size_t k = 0; k < 8; ++k)
-        d_.corners.push_back(
-            body.vertices[body.faces[f][std::min(k, body.faces[f].size() - 1)]](axis));
+  if (small_faces) {
+    view.corners = real;
+    for (const std::vector<int>& face : body.faces)
+      for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t k = 0; k < 8; ++k)
+          *real++ = body.vertices[face[std::min(k, face.size() - 1)]](axis);
   }
-  d_.loop_begin.push_back(static_cast<std::uint16_t>(loop_end));
-  int neighbor_end = 0;
-  for (int v = 0; v < n; ++v) {
-    d_.neighbor_begin.push_back(static_cast<std::uint16_t>(neighbor_end));
-    for (const Corner& c : corner_at[v]) {
-      d_.neighbor.push_back(static_cast<std::uint16_t>(c.next));
-      d_.left_face.push_back(static_cast<std::uint16_t>(c.face));
-      ++neighbor_end;
-    }
-  }
-  d_.neighbor_begin.push_back(static_cast<std::uint16_t>(neighbor_end));
-  d_.shapes.push_back(shape);
-  renew_views();
+
+  arrays->bits.resize(std::size_t(n) * words);
+  for (int f = 0; f < faces; ++f)
+    for (int v : body.faces[f]) arrays->bits[v * words + f / 64] |= std::uint64_t(1) << (f % 64);
+
+  std::vector<std::uint16_t>& index = arrays->indices;
+  const auto put = [&index](std::size_t i) { index.push_back(static_cast<std::uint16_t>(i)); };
+  std::size_t end = 0;
+  for (const auto& c : corner_at) put(end), end += c.size();
+  put(end);
+  for (const auto& at : corner_at)
+    for (const Corner& c : at) put(c.next);
+  for (const auto& at : corner_at)
+    for (const Corner& c : at) put(c.face);
+  end = 0;
+  for (const auto& face : body.faces) put(end), end += face.size();
+  put(end);
+  for (const auto& face : body.faces)
+    for (int v : face) put(v);
+
+  view.x = x, view.y = y, view.z = z;
+  view.vertices = n, view.padded = padded;
+  view.nx = nx, view.ny = ny, view.nz = nz, view.offset = offset;
+  view.faces = faces;
+  view.radius = shape.radius;
+  view.neighbor_begin = index.data();
+  view.neighbor = view.neighbor_begin + n + 1;
+  view.left_face = view.neighbor + corners;
+  view.loop_begin = view.left_face + corners;
+  view.loop = view.loop_begin + faces + 1;
+  view.vertex_faces = arrays->bits.data();
+  view.face_words = words;
+  view.planes_padded = true;
+  views_.push_back(view);
+  arrays_.push_back(std::move(arrays));
+  shapes_.push_back(shape);
   return size() - 1;
-}
-
-// Views of all shapes when an array has moved, else of the new one only.
-void ShapeTable::renew_views() {
-  const std::vector<const void*> now = {d_.x.data(),
-                                        d_.y.data(),
-                                        d_.z.data(),
-                                        d_.nx.data(),
-                                        d_.ny.data(),
-                                        d_.nz.data(),
-                                        d_.offset.data(),
-                                        d_.corners.data(),
-                                        d_.loop_begin.data(),
-                                        d_.loop.data(),
-                                        d_.neighbor.data(),
-                                        d_.left_face.data(),
-                                        d_.neighbor_begin.data(),
-                                        d_.vertex_faces.data()};
-  if (now != bases_) views_.clear();
-  bases_ = now;
-  while (views_.size() < d_.begin.size()) views_.push_back(make_view(int(views_.size())));
-}
-
-ShapeTable::ShapeTable(const ShapeTable& o) : d_(o.d_) { renew_views(); }
-
-ShapeTable& ShapeTable::operator=(ShapeTable o) {
-  d_ = std::move(o.d_);
-  views_ = std::move(o.views_);
-  bases_ = std::move(o.bases_);
-  return *this;
-}
-
-ConvexView ShapeTable::make_view(int s) const {
-  const Begin& b = d_.begin[s];
-  ConvexView v;
-  v.x = d_.x.data() + b.vertex;
-  v.y = d_.y.data() + b.vertex;
-  v.z = d_.z.data() + b.vertex;
-  v.vertices = b.vertices;
-  v.padded = b.padded;
-  v.nx = d_.nx.data() + b.face;
-  v.ny = d_.ny.data() + b.face;
-  v.nz = d_.nz.data() + b.face;
-  v.offset = d_.offset.data() + b.face;
-  v.faces = b.faces;
-  v.loop_begin = d_.loop_begin.data() + b.loop_begin;
-  v.loop = d_.loop.data() + b.loop;
-  v.radius = d_.shapes[s].radius;
-  v.neighbor_begin = d_.neighbor_begin.data() + b.neighbor_begin;
-  v.neighbor = d_.neighbor.data() + b.neighbor;
-  v.left_face = d_.left_face.data() + b.neighbor;
-  v.vertex_faces = d_.vertex_faces.data() + b.bits;
-  v.face_words = b.words;
-  v.planes_padded = true;
-  v.corners = b.small_faces ? d_.corners.data() + b.corners : nullptr;
-  return v;
 }
 
 }  // namespace trackbed::dem

@@ -2,6 +2,7 @@
 // and planes padded to eight by repeating the last one.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "dem/grain/polyhedron.h"
@@ -37,34 +38,24 @@ class ShapeTable {
   /// Returns the shape's index. Throws InputError when a face has no area, an edge belongs to one
   /// face only, or there are more than 65535 vertices.
   int add(const GrainShape&);
-  /// Valid until the next add.
+  /// Valid as long as this table or a copy of it lives.
   const ConvexView& view(int shape) const { return views_[shape]; }
-  int size() const { return static_cast<int>(d_.begin.size()); }
-  const GrainShape& shape(int s) const { return d_.shapes[s]; }
-
-  ShapeTable() = default;
-  ShapeTable(const ShapeTable&);
-  ShapeTable(ShapeTable&&) = default;
-  ShapeTable& operator=(ShapeTable);
+  int size() const { return static_cast<int>(views_.size()); }
+  const GrainShape& shape(int s) const { return shapes_[s]; }
 
  private:
-  struct Begin {
-    std::size_t vertex, face, loop_begin, loop, neighbor_begin, neighbor, bits, corners;
-    int vertices, padded, faces, words;
-    bool small_faces;
+  // The arrays of one shape, together in memory as the kernel reads them; never moves or changes.
+  struct alignas(64) Line {
+    double value[8];
   };
-  ConvexView make_view(int shape) const;
-  void renew_views();
-
   struct Arrays {
-    std::vector<Begin> begin;
-    std::vector<double> x, y, z, nx, ny, nz, offset, corners;
-    std::vector<std::uint16_t> loop_begin, loop, neighbor_begin, neighbor, left_face;
-    std::vector<std::uint64_t> vertex_faces;
-    std::vector<GrainShape> shapes;
-  } d_;
+    std::vector<Line> reals;             // x, y, z; nx, ny, nz, offset; corners
+    std::vector<std::uint64_t> bits;     // vertex_faces
+    std::vector<std::uint16_t> indices;  // neighbor_begin, neighbor, left_face, loop_begin, loop
+  };
+  std::vector<std::shared_ptr<const Arrays>> arrays_;
   std::vector<ConvexView> views_;
-  std::vector<const void*> bases_;  ///< where the arrays were when the views were made
+  std::vector<GrainShape> shapes_;
 };
 
 }  // namespace trackbed::dem

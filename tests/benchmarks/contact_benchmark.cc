@@ -28,8 +28,8 @@ const Pairs& pairs(bool touching) {
     for (const Polyhedron& g : grains)
       if (g.vertices.size() >= 14 && g.vertices.size() <= 20)
         p.table.add(make_grain_shape(scaled(g, 0.05)));
-    for (int k = 0; k < 2000; ++k) {
-      const int i = int(random.below(p.table.size())), j = int(random.below(p.table.size()));
+    for (int k = 0; k < 4 * p.table.size(); ++k) {
+      const int i = k / 4, j = int(random.below(p.table.size()));  // sorted by a, as in a run
       const Pose pa{random_rotation(random), 0.5 * random.direction()};
       const double share = touch ? std::pow(10, random.uniform(-3, -2)) : -0.01;
       const Pose pb = touching_pose(random, p.table.view(i), pa, p.table.view(j), share);

@@ -42,32 +42,42 @@ NormalResponse stored_energy_response(const OverlapShape& s, double modulus) {
   const Mat3& C = s.second_moment;
   if (!(s.volume > 0) || !(C(0, 0) > 0) || !(C(1, 1) > 0) || !(C(2, 2) > 0)) return r;
 
-  // C = D R D with D = diag(sqrt(C_ii)): flat overlaps, C_zz << C_xx, keep their digits.
-  const double ex = 1 / std::sqrt(C(0, 0)), ey = 1 / std::sqrt(C(1, 1)),
-               ez = 1 / std::sqrt(C(2, 2));
-  const double xy = C(0, 1) * ex * ey, xz = C(0, 2) * ex * ez, yz = C(1, 2) * ey * ez;
-  const double mxx = 1 - yz * yz, myy = 1 - xz * xz, mzz = 1 - xy * xy;
-  const double mxy = xz * yz - xy, mxz = xy * yz - xz, myz = xy * xz - yz;
-  const double det = mxx + xy * mxy + xz * mxz;
+  // C^-1 det R, where C = D R D with D = diag(sqrt(C_ii)): scaled by the diagonal, flat overlaps,
+  // C_zz << C_xx, keep their digits.
+  const double ix = 1 / C(0, 0), iy = 1 / C(1, 1), iz = 1 / C(2, 2);
+  const double ux = C(1, 2) * iy, uy = C(0, 2) * iz, uz = C(0, 1) * ix;
+  const double rx = ux * C(1, 2) * iz, ry = uy * C(0, 2) * ix, rz = uz * C(0, 1) * iy;  // R_ij^2
+  const double det = (1 - rx) - ry - rz + 2 * ux * uy * uz;
   if (!(det > 0)) return r;
-
-  Mat3 K;  // C^-1 times det
-  K(0, 0) = mxx * ex * ex, K(1, 1) = myy * ey * ey, K(2, 2) = mzz * ez * ez;
-  K(0, 1) = K(1, 0) = mxy * ex * ey, K(0, 2) = K(2, 0) = mxz * ex * ez;
-  K(1, 2) = K(2, 1) = myz * ey * ez;
-  const double size = P == 1 ? K.trace() : K.norm();
-  K *= 1 / size;  // lambda C^-1
-  const double lambda = det / size;
+  double xx = (1 - rx) * ix, yy = (1 - ry) * iy, zz = (1 - rz) * iz;
+  double xy = (uy * C(1, 2) - C(0, 1)) * ix * iy, xz = (ux * C(0, 1) - C(0, 2)) * ix * iz;
+  double yz = (uz * C(0, 2) - C(1, 2)) * iy * iz;
+  const double size =
+      P == 1 ? xx + yy + zz
+             : std::sqrt(xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz));
+  const double lambda = det / size, scale = 1 / size;  // K = lambda C^-1 from here on
   if (!(lambda > 0)) return r;
+  xx *= scale, yy *= scale, zz *= scale, xy *= scale, xz *= scale, yz *= scale;
 
   constexpr double c = 0.37612638903183752462;  // 2/(3 sqrt(pi))
-  const double thickness2 = 12 * lambda / s.volume;
-  const double thickness = std::sqrt(thickness2);
+  const double inverse = 1 / s.volume;
+  const double thickness = std::sqrt(12 * lambda * inverse);
   r.energy = c * modulus * thickness * std::sqrt(s.volume * thickness);
-  r.p0 = -0.25 * r.energy / s.volume;
-  const Mat3 K2 = K * K;
-  r.Q = 0.75 * r.energy / lambda * (P == 1 ? K2 : Mat3(K2 * K));
+  r.p0 = -0.25 * r.energy * inverse;
   r.stiffness = 1.2 * 2 * c * modulus * std::sqrt(s.area.norm());
+
+  // Q = 3/4 U/lambda K^(P+1), symmetric.
+  double qxx = xx * xx + xy * xy + xz * xz, qyy = xy * xy + yy * yy + yz * yz;
+  double qzz = xz * xz + yz * yz + zz * zz, qxy = xx * xy + xy * yy + xz * yz;
+  double qxz = xx * xz + xy * yz + xz * zz, qyz = xy * xz + yy * yz + yz * zz;
+  if (P == 2) {
+    const double sxx = qxx, syy = qyy, szz = qzz, sxy = qxy, sxz = qxz, syz = qyz;
+    qxx = sxx * xx + sxy * xy + sxz * xz, qyy = sxy * xy + syy * yy + syz * yz;
+    qzz = sxz * xz + syz * yz + szz * zz, qxy = sxx * xy + sxy * yy + sxz * yz;
+    qxz = sxx * xz + sxy * yz + sxz * zz, qyz = sxy * xz + syy * yz + syz * zz;
+  }
+  const double q = 0.75 * r.energy / lambda;
+  r.Q << q * qxx, q * qxy, q * qxz, q * qxy, q * qyy, q * qyz, q * qxz, q * qyz, q * qzz;
   return r;
 }
 
