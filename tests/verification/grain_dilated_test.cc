@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "dem/grading/rounded_sieve_size.h"
 #include "dem/grain/dilated.h"
+#include "dem/grain/dilated_shape.h"
 #include "dem/grain/random.h"
 #include "dem/grain/voronoi.h"
 #include "tests/unit/grain_solids.h"
@@ -118,6 +120,35 @@ TEST(Dilated, BoxesOfAnyProportion) {
     const double v = e.prod() + s * r + M_PI * e.sum() * r * r + 4 / 3. * M_PI * r * r * r;
     EXPECT_NEAR(p.volume / v, 1, 1e-12);
     EXPECT_GT(p.inertia.determinant(), 0);
+  }
+}
+
+TEST(DilatedShape, PrincipalFrameAndSieveSize) {
+  VoronoiParameters v;
+  v.count = 4;
+  for (const Polyhedron& core : voronoi_grains(v)) {
+    const DilatedPolyhedron given{moved(core, any_turn, {1, 2, 3}), 0.2};
+    const DilatedShape shape = make_dilated_shape(given);
+    const MassProperties own = mass_properties(shape.body);
+    EXPECT_LT(own.centroid.norm(), 1e-14);
+    EXPECT_NEAR(shape.volume, dilated_volume(given), 1e-13);
+    const Mat3 principal = shape.inertia.asDiagonal();
+    EXPECT_LT((own.inertia - principal).norm(), 1e-13);
+    EXPECT_LE(shape.inertia[0], shape.inertia[1]);
+    EXPECT_LE(shape.inertia[1], shape.inertia[2]);
+    for (size_t k = 0; k < core.vertices.size(); ++k)
+      EXPECT_LT(
+          (shape.turn * shape.body.core.vertices[k] + shape.origin - given.core.vertices[k]).norm(),
+          1e-14);
+    const DilatedShape twice = scaled(shape, 2);
+    EXPECT_NEAR(twice.volume, mass_properties(twice.body).volume, 1e-12);
+    EXPECT_NEAR(twice.inertia[2], mass_properties(twice.body).inertia(2, 2), 1e-11);
+
+    GrainShape sized = make_grain_shape(core);
+    EXPECT_THROW(dilate_within(sized, 0.1), InputError);
+    sized.sieve_size = sieve_size(sized.body);
+    EXPECT_NEAR(sieve_size(dilate_within(sized, 0.1).body), sized.sieve_size, 1e-6);
+    EXPECT_THROW(dilate_within(sized, 0.5), InputError);
   }
 }
 

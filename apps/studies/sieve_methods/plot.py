@@ -20,9 +20,9 @@ def main(folder):
     for m in methods:
         seconds, wrong = float(m["seconds_per_grain"]), float(m["wrong_class_percent"])
         left.plot(seconds, wrong, "o", color=colour[m["method"]], markersize=7)
-        late, low = seconds > 1e-3, m["method"] in ("elias2014", "min_shadow", "equal_sphere")
-        left.annotate(m["method"], (seconds, wrong), xytext=(-8 if late else 8, -9 if low else 5),
-                      ha="right" if late else "left", textcoords="offset points", fontsize=8)
+        shift = {"exact": (-42, 7), "equal_sphere": (-4, 8)}.get(m["method"], (9, -3))
+        left.annotate(m["method"], (seconds, wrong), xytext=shift, textcoords="offset points",
+                      fontsize=8)
     left.set_xscale("log")
     left.set_ylim(-4, 100)
     left.set_xlabel("time per grain [s], one core")
