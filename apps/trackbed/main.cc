@@ -1,6 +1,9 @@
 // Command line of `trackbed`. Exit codes: 0 success, 1 a run that failed, 2 wrong usage or input.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 
@@ -54,6 +57,13 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
   return text + " (see trackbed" + name + " --help)";
 }
 
+/// Threads that wait for each other in a busy loop are ruinous where a core is shared (a hundred
+/// times slower was seen); OpenMP reads how to wait before main, so the program starts once more.
+void wait_passively(char** argv) {
+  if (::getenv("OMP_WAIT_POLICY") || ::setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
+  ::execv("/proc/self/exe", argv);  // returns only if it cannot: then as it is
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app{
       "Trackbed computes how a railway ballast bed settles: angular grains under a sleeper,\n"
@@ -87,7 +97,8 @@ int run_program(int argc, char** argv) {
   command->callback([&] { chosen = [&] { return parameters_command(parameters); }; });
 
   SieveOptions sieve;
-  command = app.add_subcommand("sieve", "sizes of OFF, OBJ or STL solids as CSV, in the unit of the files");
+  command = app.add_subcommand("sieve",
+                               "sizes of OFF, OBJ or STL solids as CSV, in the unit of the files");
   command->add_option("GRAINS", sieve.grains, "files, one solid each")->required();
   command->add_option("--method", sieve.method, "a sieve method's name, or all [exact]")
       ->type_name("NAME");
@@ -135,6 +146,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_passively(argv);
   try {
     return run_program(argc, argv);
   } catch (const trackbed::InputError& error) {

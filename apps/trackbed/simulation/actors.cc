@@ -154,7 +154,7 @@ void build_structures(Run& run) {
     run.actors.subgrade_surface = static_cast<int>(w.surfaces.size());
     w.surfaces.push_back(coupling::make_surface("subgrade", kSubgrade, depth,
                                                 largest_sieve(w.shapes), run.layout.period,
-                                                make_elastic_subgrade(run.scene, run.layout)));
+                                                make_subgrade_structure(run.scene, run.layout)));
   }
 }
 

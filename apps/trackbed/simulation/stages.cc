@@ -4,14 +4,10 @@
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/stage.h"
+#include "apps/trackbed/waveform.h"
 
 namespace trackbed::apps {
 namespace {
-
-// From 0 to `peak` and back, period T: the load starts and ends at its least.
-double cyclic(double t, double period, double least, double largest) {
-  return least + 0.5 * (largest - least) * (1 - std::cos(2 * M_PI * t / period));
-}
 
 const std::vector<dem::GrainShape>& library(Run& run) {
   if (run.library.empty()) run.library = make_grain_library(run.scene, {});
@@ -52,7 +48,7 @@ std::vector<Stage> packing_stages(const Scene& s) {
     tamping.enter = [](Run& run) { add_plate(run); };
     tamping.load = [](const Run& run, double t) {
       const PackingScene& p = run.scene.packing;
-      return cyclic(t, 1 / p.plate_frequency, 0, p.plate_force);
+      return waveform_load("sine", t, 1 / p.plate_frequency, 0, p.plate_force);
     };
     tamping.after_cycle = [](Run& run) {
       const double target = run.scene.packing.target_density;
@@ -104,7 +100,7 @@ std::vector<Stage> loading_stages(const Scene& s) {
   loading.enter = [](Run&) {};
   loading.load = [](const Run& run, double t) {
     const LoadingScene& l = run.scene.loading;
-    return cyclic(t, 1 / l.frequency, l.least, l.largest);
+    return waveform_load(l.waveform, t, 1 / l.frequency, l.least, l.largest);
   };
   return {seating, loading};
 }

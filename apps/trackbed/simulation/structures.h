@@ -18,9 +18,4 @@ std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene&, const Layo
 /// Boundaries of the sleeper that grains touch.
 std::vector<std::string> sleeper_contact(const Scene&);
 
-/// Former name.
-inline std::unique_ptr<fem::Structure> make_elastic_subgrade(const Scene& scene, const Layout& l) {
-  return make_subgrade_structure(scene, l);
-}
-
 }  // namespace trackbed::apps
