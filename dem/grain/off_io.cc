@@ -122,25 +122,32 @@ RawMesh parse(const std::string& path) {
   throw InputError(path + ": unknown kind of file; .off, .obj and .stl are read");
 }
 
-}  // namespace
-
-Polyhedron read_solid(const std::string& path, const SolidOptions& options) {
-  if (!(options.unit > 0) || !std::isfinite(options.unit))
+// A closed solid of positive volume, in metres; `tolerance` relative to its extent.
+RawMesh read_closed(const std::string& path, double unit, double& tolerance) {
+  if (!(unit > 0) || !std::isfinite(unit))
     throw InputError("solid: the unit of length must be positive");
   RawMesh mesh = parse(path);
   if (mesh.vertices.empty() || mesh.faces.empty()) throw InputError(path + ": holds no faces");
-  const double tolerance = mesh.single_precision ? 3e-7 : 1e-9;
-  for (Vec3& v : mesh.vertices) v *= options.unit;
+  tolerance = mesh.single_precision ? 3e-7 : 1e-9;
+  for (Vec3& v : mesh.vertices) v *= unit;
   const double size = extent(mesh.vertices);
   mesh = welded(mesh, tolerance * size);
   if (mesh.faces.empty()) throw InputError(path + ": the solid has no volume");
   check_surface(path, mesh);
-
   const double volume = signed_volume({mesh.vertices, mesh.faces});
   if (std::abs(volume) <= 1e-12 * size * size * size)
     throw InputError(path + ": the solid has no volume");
   if (volume < 0) throw InputError(path + ": the solid is inside-out (its faces point inwards)");
+  return mesh;
+}
 
+}  // namespace
+
+Polyhedron read_solid(const std::string& path, const SolidOptions& options) {
+  double tolerance = 0;
+  const RawMesh mesh = read_closed(path, options.unit, tolerance);
+  const double size = extent(mesh.vertices);
+  const double volume = signed_volume({mesh.vertices, mesh.faces});
   std::vector<Vec3> corners;  // a vertex that no face uses is no part of the solid
   for (const auto& face : mesh.faces)
     for (int v : face) corners.push_back(mesh.vertices[v]);
@@ -162,6 +169,23 @@ Polyhedron read_solid(const std::string& path, const SolidOptions& options) {
       ": the solid is not convex (its hull is %.3g %% larger); ask for the hull to use that",
       100 * (mass_properties(hull).volume / volume - 1));
   throw InputError(path + text);
+}
+
+TriangleSolid read_triangle_solid(const std::string& path, double unit) {
+  double tolerance = 0;
+  const RawMesh mesh = read_closed(path, unit, tolerance);
+  if (self_intersects(mesh)) throw InputError(path + ": the surface intersects itself");
+  TriangleSolid solid{mesh.vertices, {}};
+  for (const auto& face : mesh.faces)
+    for (size_t k = 1; k + 1 < face.size(); ++k)
+      solid.triangles.push_back({face[0], face[k], face[k + 1]});
+  return solid;
+}
+
+void write_off(const std::string& path, const TriangleSolid& solid) {
+  Polyhedron body{solid.vertices, {}};
+  for (const auto& t : solid.triangles) body.faces.push_back({t[0], t[1], t[2]});
+  write_off(path, body);
 }
 
 void write_off(const std::string& path, const Polyhedron& body) {

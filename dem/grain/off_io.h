@@ -3,6 +3,7 @@
 #include <string>
 
 #include "dem/grain/polyhedron.h"
+#include "dem/grain/triangle_solid.h"
 
 namespace trackbed::dem {
 
@@ -19,7 +20,12 @@ struct SolidOptions {
 /// `hull`).
 Polyhedron read_solid(const std::string& path, const SolidOptions& = {});
 
+/// The solid in a file as it is, convex or not, its faces cut into triangles from their first
+/// corner (faces must be convex). Throws as read_solid.
+TriangleSolid read_triangle_solid(const std::string& path, double unit = 1);
+
 /// Writes OFF with all digits. Throws InputError when the file cannot be written.
 void write_off(const std::string& path, const Polyhedron&);
+void write_off(const std::string& path, const TriangleSolid&);
 
 }  // namespace trackbed::dem

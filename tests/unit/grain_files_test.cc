@@ -143,12 +143,33 @@ TEST_F(Files, NotConvexIsRefusedOrReplacedByItsHull) {
   EXPECT_NEAR(mass_properties(hull).volume, 1, 1e-14);
 }
 
+// A scanned stone as it is: mass, depth, convex parts, and the way back to a file.
+TEST_F(Files, NotConvexIsReadAsTriangles) {
+  const TriangleSolid solid = read_triangle_solid(file("pit.off", pit), 0.001);
+  const MassProperties p = mass_properties(solid);
+  EXPECT_NEAR(p.volume, 5 / 6. * 1e-9, 1e-22);  // a pyramid of height 1/2 is missing
+  EXPECT_NEAR(p.centroid.z(), (0.5 - 0.875 / 6) / (5 / 6.) * 1e-3, 1e-15);
+  EXPECT_GT(depth(solid, {0.5e-3, 0.5e-3, 0.25e-3}), 0);
+  EXPECT_LT(depth(solid, {0.5e-3, 0.5e-3, 0.75e-3}), 0);
+  double volume = 0;
+  for (const Polyhedron& part : star_parts(solid, {0.5e-3, 0.5e-3, 0.25e-3}))
+    volume += mass_properties(part).volume;
+  EXPECT_NEAR(volume, p.volume, 1e-22);
+  EXPECT_THROW(star_parts(solid, {0.1e-3, 0.1e-3, 0.9e-3}), InputError);
+  write_off(file("copy.off"), solid);
+  const TriangleSolid copy = read_triangle_solid(file("copy.off"));
+  EXPECT_EQ(copy.triangles.size(), solid.triangles.size());
+  EXPECT_NEAR(mass_properties(copy).volume, p.volume, 1e-22);
+  EXPECT_THROW(read_triangle_solid(file("open.off", pit.substr(0, pit.size() - 8))), InputError);
+}
+
 TEST_F(Files, SelfIntersectionIsNamed) {
   std::string deep = pit;  // the pit's point below the bottom
   deep.replace(deep.find(".5 .5 .5"), 8, ".5 .5 -1");
   deep = "OFF\n9 9 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n.5 .5 -.4\n" +
          deep.substr(deep.find("4 0 3 2 1"));
   refused("deep.off", deep, "intersects itself");
+  EXPECT_THROW(read_triangle_solid(file("deep.off", deep)), InputError);
 }
 
 TEST_F(Files, UnwritablePathIsNamed) {
