@@ -46,8 +46,7 @@ TEST(ShapeTargets, AngularityIsNearlyTheMean) {
   EXPECT_NEAR(r.flatness.mean, 0.6, 0.05);
 }
 
-// All twelve edges of a cube of edge 2 cut to distance (1 - d) sqrt2: the volume follows from the
-// prisms cut off; every second cut edge leaves an irregular body, so all or none here.
+// All twelve edges of a cube of edge 2 cut off: the volume follows from the prisms.
 TEST(Blunted, Cube) {
   const Polyhedron cube = make_box({2, 2, 2});
   EXPECT_EQ(blunted(cube, 0).faces.size(), 6u);
