@@ -216,9 +216,10 @@ TEST(OverlapPieces, EveryWayGivesTheSame) {
         if (way == 1 && v->vertices == 15) v->padded = v->vertices;  // no whole eights: any size
       }
       const Contact other = evaluate(a, p.pa, b, p.pb, axis);
-      EXPECT_NEAR(fast.volume, other.volume, 1e-12 * fast.volume);
-      EXPECT_LT((fast.force_a - other.force_a).norm(), 1e-11 * fast.force_a.norm());
-      EXPECT_LT((fast.torque_a - other.torque_a).norm(), 1e-11 * fast.force_a.norm());
+      EXPECT_NEAR(fast.volume, other.volume, 1e-11 * fast.volume);
+      // Random frames cost thin overlaps digits.
+      EXPECT_LT((fast.force_a - other.force_a).norm(), 1e-9 * fast.force_a.norm());
+      EXPECT_LT((fast.torque_a - other.torque_a).norm(), 1e-9 * fast.force_a.norm());
     }
   }
 }

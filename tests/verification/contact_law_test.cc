@@ -151,7 +151,9 @@ TEST(StoredEnergy, EdgesCrossingAtEveryAngle) {
     EXPECT_LT(c.force_a.head<2>().norm(), 1e-6 * c.force_a.norm());
     EXPECT_NEAR(c.frame.axes.col(2).norm(), 1, 1e-14);
     const double force = c.force_a.norm();
-    if (last > 0) EXPECT_LT(std::abs(force / last - 1), 0.04) << degrees;
+    if (last > 0) {
+      EXPECT_LT(std::abs(force / last - 1), 0.04) << degrees;
+    }
     last = force;
   }
   s.pb.R = s.pa.R;
