@@ -82,6 +82,7 @@ void write_moment(const Run& run, const std::string& file) {
   const std::vector<BearingForce> forces = bearing_forces(run);
   const SleeperScene& s = run.scene.sleeper;
   const double length = l.sleeper_high_x - l.sleeper_low_x;
+  const double axis = run.actors.sleeper_base + 0.5 * s.height - deflection_at(run, 0);
   const double weight = 9.81 * s.density * s.width * s.height;  // [N/m]
   std::vector<double> seats;
   for (const double x : s.seats)
@@ -91,7 +92,8 @@ void write_moment(const Run& run, const std::string& file) {
   const auto moment = [&](double x) {
     double sum = 0;
     for (const BearingForce& f : forces)
-      if (f.point.x() > x) sum += f.force.z() * (f.point.x() - x);
+      if (f.point.x() > x)
+        sum += f.force.z() * (f.point.x() - x) - f.force.x() * (f.point.z() - axis);
     const double seat = run.stage.load * l.share / std::max<std::size_t>(1, seats.size());
     for (const double at : seats) {
       // Evenly over the seat's length.
