@@ -13,7 +13,8 @@ void set_time_integration(const Scene& s, fem::ElasticBodyParameters& p) {
 }  // namespace
 
 std::vector<std::string> sleeper_contact(const Scene& s) {
-  std::vector<std::string> faces{"bottom", "x_max", "y_min", "y_max"};
+  std::vector<std::string> faces{"bottom", "top", "x_max", "y_min",
+                                 "y_max"};  // stones may lie on it
   if (!s.container.half) faces.push_back("x_min");
   return faces;
 }
