@@ -1,11 +1,13 @@
-// Eight doubles at a time: one 512-bit register where the processor has them, else plain loops that
-// the compiler turns into what there is.
+// Eight doubles at a time: one 512-bit register or two of 256 bits where the processor has them,
+// else plain loops.
 #pragma once
 #include <cstdint>
 
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define TRACKBED_AVX512 1
-#include <immintrin.h>
 // GCC 12 takes the intrinsics' deliberately undefined operands for mistakes (its bug 105593).
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -46,6 +48,61 @@ struct Places {
       : v(_mm512_cvtepu8_epi64(_mm_cvtsi64_si128(static_cast<long long>(bytes)))) {}
 };
 inline Eight pick(Eight a, const Places& p) { return _mm512_permutexvar_pd(p.v, a.v); }
+
+#elif defined(__AVX2__)
+
+struct Eight {
+  __m256d low, high;
+  Eight() = default;
+  Eight(__m256d l, __m256d h) : low(l), high(h) {}
+  explicit Eight(double s) : low(_mm256_set1_pd(s)), high(low) {}
+  static Eight load(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)}; }
+  void store(double* p) const { _mm256_storeu_pd(p, low), _mm256_storeu_pd(p + 4, high); }
+  friend Eight operator+(Eight a, Eight b) { return {a.low + b.low, a.high + b.high}; }
+  friend Eight operator-(Eight a, Eight b) { return {a.low - b.low, a.high - b.high}; }
+  friend Eight operator*(Eight a, Eight b) { return {a.low * b.low, a.high * b.high}; }
+};
+inline Eight fma(Eight a, Eight b, Eight c) { return a * b + c; }
+inline Eight max(Eight a, Eight b) {
+  return {_mm256_max_pd(a.low, b.low), _mm256_max_pd(a.high, b.high)};
+}
+inline Eight min(Eight a, Eight b) {
+  return {_mm256_min_pd(a.low, b.low), _mm256_min_pd(a.high, b.high)};
+}
+inline double largest(Eight a) {
+  const __m256d four = _mm256_max_pd(a.low, a.high);
+  const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
+  return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+}
+inline double least(Eight a) { return -largest(Eight(0.0) - a); }
+inline unsigned less(Eight a, Eight b) {
+  return unsigned(_mm256_movemask_pd(_mm256_cmp_pd(a.low, b.low, _CMP_LT_OQ))) |
+         unsigned(_mm256_movemask_pd(_mm256_cmp_pd(a.high, b.high, _CMP_LT_OQ))) << 4;
+}
+inline unsigned less_equal(Eight a, Eight b) {
+  return unsigned(_mm256_movemask_pd(_mm256_cmp_pd(a.low, b.low, _CMP_LE_OQ))) |
+         unsigned(_mm256_movemask_pd(_mm256_cmp_pd(a.high, b.high, _CMP_LE_OQ))) << 4;
+}
+inline Eight divide_where(unsigned bits, Eight a, Eight b) {
+  double x[8], y[8], r[8] = {};
+  a.store(x), b.store(y);
+  for (; bits; bits &= bits - 1) {
+    const int k = __builtin_ctz(bits);
+    r[k] = x[k] / y[k];
+  }
+  return Eight::load(r);
+}
+
+struct Places {
+  std::uint64_t bytes;
+  explicit Places(std::uint64_t b) : bytes(b) {}
+};
+inline Eight pick(Eight a, const Places& p) {
+  double x[8], r[8];
+  a.store(x);
+  for (int k = 0; k < 8; ++k) r[k] = x[p.bytes >> (8 * k) & 7];
+  return Eight::load(r);
+}
 
 #else
 

@@ -59,7 +59,7 @@ void TouchingPair(benchmark::State& state) {
   OverlapWorkspace work;
   for (auto _ : state)
     for (std::size_t k = 0; k < p.a.size(); ++k) {
-      const ConvexView a = p.table.view(p.a[k]), b = p.table.view(p.b[k]);
+      const ConvexView &a = p.table.view(p.a[k]), &b = p.table.view(p.b[k]);
       work.clear();
       OverlapMoments moments;
       const ContactFrame frame = contact_frame(a, p.pa[k], b, p.pb[k], p.axis[k]);
@@ -104,7 +104,7 @@ void FrameAndOverlap(benchmark::State& state) {
   OverlapWorkspace work;
   for (auto _ : state)
     for (std::size_t k = 0; k < p.a.size(); ++k) {
-      const ConvexView a = p.table.view(p.a[k]), b = p.table.view(p.b[k]);
+      const ConvexView &a = p.table.view(p.a[k]), &b = p.table.view(p.b[k]);
       work.clear();
       OverlapMoments moments;
       const ContactFrame frame = contact_frame(a, p.pa[k], b, p.pb[k], p.axis[k]);
