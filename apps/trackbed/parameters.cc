@@ -97,7 +97,7 @@ void add_contact(Section s) {
   s.number("Local damping", "0", "-", 0, 0.95,
            "share of the unbalanced force that opposes motion while loading; 0 = off");
   s.number("Packing damping", "0.4", "-", 0, 0.95, "the same while packing");
-  s.number("Largest overlap", "0.1", "-", 1e-6, 0.5,
+  s.number("Largest overlap", "0.2", "-", 1e-6, 0.5,
            "depth over the grain's sieve size at which a run stops");
 }
 
