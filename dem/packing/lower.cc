@@ -17,14 +17,14 @@ double free_fall(const Bodies& b, const ShapeTable& shapes, int i, int j, const 
   const Pose pj{b.R[j], b.x[j] + shift};
   Vec3 axis = pj.x - b.x[i];
   double way = 0;
-  for (int step = 0; step < 50 && way < limit; ++step) {
+  for (int step = 0; step < 1000 && way < limit; ++step) {
     const Pose pi{b.R[i], b.x[i] - Vec3(0, 0, way)};
     const double gap = separating_axis(vi, pi, vj, pj, axis);
     const double closing = -axis.z();  // of the gap along the axis, per way down
     if (gap <= 0) return way;
     if (closing <= 1e-12 || gap / closing >= limit - way) return limit;
-    way += gap / closing;
-    if (gap < 1e-9 * vi.radius) return way;
+    // A hair past where this axis stops to separate, so that another one is looked for.
+    way += gap / closing + 1e-9 * vi.radius;
   }
   return std::min(way, limit);
 }
