@@ -95,10 +95,7 @@ void write_results(const Run& run, const std::string& folder, double wall) {
   write_grains(run, folder + "/grains.csv");
   write_timing(run, folder + "/timing.csv", wall);
   write_summary(run, folder + "/summary.csv", wall);
-  if (run.stage.pressure_samples > 0) {
-    write_pressure(run, folder + "/pressure.csv");
-    write_moment(run, folder + "/moment.csv");
-  }
+  if (run.stage.pressure_samples > 0) write_pressure(run, folder + "/pressure.csv");
 }
 
 }  // namespace trackbed::apps

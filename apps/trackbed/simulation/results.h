@@ -6,8 +6,8 @@
 
 namespace trackbed::apps {
 
-/// gradation.csv, grains.csv, timing.csv, summary.csv, and after load cycles pressure.csv and
-/// moment.csv. `wall_seconds` of the whole run.
+/// gradation.csv, grains.csv, timing.csv, summary.csv, and after load cycles pressure.csv
+/// (moment.csv is written at every load peak). `wall_seconds` of the whole run.
 void write_results(const Run&, const std::string& folder, double wall_seconds);
 
 }  // namespace trackbed::apps

@@ -133,7 +133,7 @@ bool at_rest(const Run& run, const Stage& stage) {
 }
 
 // What is recorded at the trough and at the peak of a load cycle. True: the stage is over.
-bool record_cycle(Run& run, const Stage& stage, Recorder& recorder) {
+bool record_cycle(Run& run, const Stage& stage, Recorder& recorder, const std::string& folder) {
   StageState& s = run.stage;
   const int phase = s.steps % s.steps_per_cycle;
   const bool tamping = run.actors.plate;
@@ -141,6 +141,7 @@ bool record_cycle(Run& run, const Stage& stage, Recorder& recorder) {
     s.u_max = sleeper_displacement(run) - s.u0;
     s.load_max = s.load;
     keep_pressure(run);
+    write_moment(run, folder + "/moment.csv");  // of the last peak
   }
   if (phase != 0) return false;
   ++s.cycles;
@@ -232,7 +233,7 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
         keep_grain_forces(run);
         recorder.sample(run, stage);
       }
-      if (s.steps_per_cycle > 0) over = record_cycle(run, stage, recorder);
+      if (s.steps_per_cycle > 0) over = record_cycle(run, stage, recorder, folder);
       over = over || (s.steps % kMonitorSteps == 0 && at_rest(run, stage)) ||
              run.world.time - s.start > stage.longest - 0.5 * s.dt;
       if (over || snapshot_due(s, out.snapshot_interval))
