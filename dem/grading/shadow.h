@@ -6,8 +6,6 @@
 
 namespace trackbed::dem {
 
-using Vec2 = Eigen::Vector2d;
-
 /// Area vectors of the faces [m2], outward.
 std::vector<Vec3> face_areas(const Polyhedron&);
 

@@ -12,6 +12,14 @@ namespace {
 
 using Arc = std::pair<double, double>;  // angles from, to; from in [0, 2 pi)
 
+void add_arc(std::vector<Arc>& arcs, double middle, double half) {
+  double from = middle - half;
+  if (from < 0) from += 2 * M_PI;
+  const double to = from + 2 * half;
+  arcs.emplace_back(from, std::min(to, 2 * M_PI));
+  if (to > 2 * M_PI) arcs.emplace_back(0, to - 2 * M_PI);
+}
+
 // The arcs of disc i that others cover; false when one covers all of it.
 bool covered_arcs(const std::vector<Disc>& discs, size_t i, std::vector<Arc>& arcs) {
   arcs.clear();
@@ -25,15 +33,48 @@ bool covered_arcs(const std::vector<Disc>& discs, size_t i, std::vector<Arc>& ar
     if (d <= a.radius - b.radius) continue;
     const double reach =
         (d * d + (a.radius - b.radius) * (a.radius + b.radius)) / (2 * d * a.radius);
-    const double half = std::acos(std::max(-1.0, std::min(1.0, reach)));
-    double from = std::atan2(dy, dx) - half;
-    if (from < 0) from += 2 * M_PI;
-    const double to = from + 2 * half;
-    arcs.emplace_back(from, std::min(to, 2 * M_PI));
-    if (to > 2 * M_PI) arcs.emplace_back(0, to - 2 * M_PI);
+    add_arc(arcs, std::atan2(dy, dx), std::acos(std::max(-1.0, std::min(1.0, reach))));
   }
-  std::sort(arcs.begin(), arcs.end());
   return true;
+}
+
+// Integral of (x dy - y dx) / 2 along the arcs that are not covered.
+double free_arcs(const Disc& d, std::vector<Arc>& arcs) {
+  double area = 0;
+  std::sort(arcs.begin(), arcs.end());
+  const auto add_free = [&](double from, double to) {
+    area += 0.5 * d.radius *
+            (d.radius * (to - from) + d.x * (std::sin(to) - std::sin(from)) -
+             d.y * (std::cos(to) - std::cos(from)));
+  };
+  double reached = 0;
+  for (const Arc& arc : arcs) {
+    if (arc.first > reached) add_free(reached, arc.first);
+    reached = std::max(reached, arc.second);
+  }
+  if (reached < 2 * M_PI) add_free(reached, 2 * M_PI);
+  return area;
+}
+
+// The length of [0, length] of a line (from `start` along the unit `along`) that the discs cover.
+double covered_length(const std::vector<Disc>& discs, const Vec2& start, const Vec2& along,
+                      double length) {
+  std::vector<std::pair<double, double>> pieces;
+  for (const Disc& d : discs) {
+    const Vec2 c = Vec2(d.x, d.y) - start;
+    const double middle = c.dot(along), off = c.x() * along.y() - c.y() * along.x();
+    const double half2 = (d.radius - off) * (d.radius + off);
+    if (half2 <= 0) continue;
+    const double half = std::sqrt(half2);
+    pieces.emplace_back(std::max(0.0, middle - half), std::min(length, middle + half));
+  }
+  std::sort(pieces.begin(), pieces.end());
+  double covered = 0, reached = 0;
+  for (const auto& [from, to] : pieces) {
+    covered += std::max(0.0, to - std::max(from, reached));
+    reached = std::max(reached, to);
+  }
+  return covered;
 }
 
 }  // namespace
@@ -50,21 +91,37 @@ std::vector<Disc> slice(const std::vector<Sphere>& spheres, double z) {
 double union_area(const std::vector<Disc>& discs) {
   double area = 0;
   std::vector<Arc> arcs;
-  for (size_t i = 0; i < discs.size(); ++i) {
-    if (!covered_arcs(discs, i, arcs)) continue;
-    const Disc& d = discs[i];
-    const auto add_free = [&](double from, double to) {  // (x dy - y dx) / 2 along the arc
-      area += 0.5 * d.radius *
-              (d.radius * (to - from) + d.x * (std::sin(to) - std::sin(from)) -
-               d.y * (std::cos(to) - std::cos(from)));
-    };
-    double reached = 0;
-    for (const Arc& arc : arcs) {
-      if (arc.first > reached) add_free(reached, arc.first);
-      reached = std::max(reached, arc.second);
-    }
-    if (reached < 2 * M_PI) add_free(reached, 2 * M_PI);
+  for (size_t i = 0; i < discs.size(); ++i)
+    if (covered_arcs(discs, i, arcs)) area += free_arcs(discs[i], arcs);
+  return area;
+}
+
+double union_area_in_disc(std::vector<Disc> discs, const Vec2& centre, double radius) {
+  const double without = union_area(discs);
+  discs.push_back({centre.x(), centre.y(), radius});
+  return without + M_PI * radius * radius - union_area(discs);
+}
+
+double union_area_in_rectangle(const std::vector<Disc>& discs, const Vec2& low, const Vec2& high) {
+  // The outline's arcs inside, from the rectangle's low corner, and what the discs cover of the two
+  // sides that do not pass through it (the other two add nothing to (x dy - y dx) / 2).
+  const Vec2 size = high - low;
+  std::vector<Disc> moved;
+  for (const Disc& d : discs) moved.push_back({d.x - low.x(), d.y - low.y(), d.radius});
+  double area = 0;
+  std::vector<Arc> arcs;
+  for (size_t i = 0; i < moved.size(); ++i) {
+    if (!covered_arcs(moved, i, arcs)) continue;
+    const Disc& d = moved[i];
+    const double to_side[4] = {size.x() - d.x, size.y() - d.y, d.x, d.y};
+    for (int side = 0; side < 4; ++side)
+      if (to_side[side] < d.radius)
+        add_arc(arcs, 0.5 * M_PI * side,
+                to_side[side] > -d.radius ? std::acos(to_side[side] / d.radius) : M_PI);
+    area += free_arcs(d, arcs);
   }
+  area += 0.5 * size.x() * covered_length(moved, Vec2(size.x(), 0), Vec2::UnitY(), size.y());
+  area += 0.5 * size.y() * covered_length(moved, Vec2(0, size.y()), Vec2::UnitX(), size.x());
   return area;
 }
 

@@ -3,72 +3,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "dem/grain/disc_region.h"
 
 namespace trackbed::dem {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
-using Mat2 = Eigen::Matrix2d;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// Of a plane region bounded by lines and arcs about the foot of the perpendicular from the sphere's
-// centre: integrals of 1, x, x x', and the solid angle seen from the centre at distance h.
-struct Region {
-  double area = 0;
-  Vec2 first = Vec2::Zero();
-  Mat2 second = Mat2::Zero();
-  double angle = 0;  // signed as h
-};
-
-void add_triangle(Region& r, const Vec2& a, const Vec2& b, double h) {
-  const double area = 0.5 * cross(a, b), s = std::abs(h);
-  const Vec2 sum = a + b;
-  r.area += area;
-  r.first += area / 3 * sum;
-  r.second += area / 12 * (a * a.transpose() + b * b.transpose() + sum * sum.transpose());
-  const double p = std::hypot(a.norm(), h), q = std::hypot(b.norm(), h);
-  const double angle = 2 * std::atan2(cross(a, b), (p + s) * (q + s) + a.dot(b));
-  r.angle += h < 0 ? -angle : angle;
-}
-
-void add_sector(Region& r, const Vec2& a, const Vec2& b, double rho, double h, double radius) {
-  const double turn = std::atan2(cross(a, b), a.dot(b));
-  const double from = std::atan2(a.y(), a.x()), to = from + turn;
-  const double c = 0.25 * (std::sin(2 * to) - std::sin(2 * from));
-  const double s = 0.5 * (std::pow(std::sin(to), 2) - std::pow(std::sin(from), 2));
-  const double rho2 = rho * rho;
-  r.area += 0.5 * rho2 * turn;
-  r.first += rho2 * rho / 3 * Vec2(std::sin(to) - std::sin(from), std::cos(from) - std::cos(to));
-  Mat2 m;
-  m << 0.5 * turn + c, s, s, 0.5 * turn - c;
-  r.second += 0.25 * rho2 * rho2 * m;
-  const double angle = turn * (1 - std::abs(h) / radius);
-  r.angle += h < 0 ? -angle : angle;
-}
-
-// The common part of a convex polygon (anticlockwise) and the disc of radius rho about the origin.
-Region disc_within(const std::vector<Vec2>& polygon, double rho, double h, double radius) {
-  Region r;
-  for (size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()], d = b - a;
-    const double dd = d.squaredNorm();
-    if (dd == 0) continue;
-    const double ad = a.dot(d);
-    const double root2 = ad * ad - dd * (a.squaredNorm() - rho * rho);
-    const double root = root2 > 0 ? std::sqrt(root2) : 0;
-    const double in = std::max(0.0, (-ad - root) / dd), out = std::min(1.0, (-ad + root) / dd);
-    if (root2 <= 0 || in >= out) {
-      add_sector(r, a, b, rho, h, radius);
-      continue;
-    }
-    const Vec2 p = a + in * d, q = a + out * d;
-    if (in > 0) add_sector(r, a, p, rho, h, radius);
-    add_triangle(r, p, q, h);
-    if (out < 1) add_sector(r, q, b, rho, h, radius);
-  }
-  return r;
-}
 
 struct Cut {
   Vec3 n;    // outward
@@ -111,9 +49,9 @@ struct Integrals {
   Mat3 second = Mat3::Zero();
 };
 
-// The disc in which plane `c` bounds the sphere's cell, in the plane's axes (e1, e2).
-Region cut_region(const std::vector<Cut>& cuts, const Cut& c, const Vec3& e1, const Vec3& e2,
-                  double radius, std::vector<Vec2>& polygon, std::vector<Vec2>& work) {
+// The part of the disc in which plane `c` bounds the sphere's cell, in the plane's axes (e1, e2).
+DiscRegion cut_region(const std::vector<Cut>& cuts, const Cut& c, const Vec3& e1, const Vec3& e2,
+                      double radius, std::vector<Vec2>& polygon, std::vector<Vec2>& work) {
   const double rho = std::sqrt(std::max(0.0, (radius - c.h) * (radius + c.h)));
   polygon = {{-2 * rho, -2 * rho}, {2 * rho, -2 * rho}, {2 * rho, 2 * rho}, {-2 * rho, 2 * rho}};
   for (const Cut& k : cuts) {
@@ -144,7 +82,7 @@ Integrals part(const std::vector<Sphere>& spheres, int i, std::vector<Cut>& cuts
   for (const Cut& c : cuts) {
     if (c.h < 0) centre_inside = false;
     const Vec3 e1 = c.n.unitOrthogonal(), e2 = c.n.cross(e1);
-    const Region g = cut_region(cuts, c, e1, e2, r, polygon, work);
+    const DiscRegion g = cut_region(cuts, c, e1, e2, r, polygon, work);
     Eigen::Matrix<double, 3, 2> axes;
     axes << e1, e2;
     const Vec3 foot = c.h * c.n, in_plane = axes * g.first, first = in_plane + g.area * foot;

@@ -31,6 +31,9 @@ std::vector<Disc> slice(const std::vector<Sphere>&, double z);
 
 /// Area of the union of discs [m2], exact, from the arcs of its outline.
 double union_area(const std::vector<Disc>&);
+/// Of its part within a disc or a rectangle.
+double union_area_in_disc(std::vector<Disc>, const Vec2& centre, double radius);
+double union_area_in_rectangle(const std::vector<Disc>&, const Vec2& low, const Vec2& high);
 
 /// Volume by horizontal slices, so many across the least sphere as the paper takes (100), each
 /// slice's area at its middle times its thickness. The paper's pixels (2.7 % too much for one
