@@ -8,6 +8,9 @@ set_tests_properties(unit/forbidden_includes PROPERTIES LABELS unit)
 
 trackbed_test(apps_parameters unit trackbed_program)
 trackbed_test(apps_output unit trackbed_program)
+trackbed_test(apps_cost unit trackbed_program)
+target_compile_definitions(apps_cost_test PRIVATE
+                           TINY="${CMAKE_CURRENT_SOURCE_DIR}/scenes/tiny.prm")
 target_compile_definitions(apps_parameters_test PRIVATE
                            SCENES="${PROJECT_SOURCE_DIR}/apps/scenes")
 

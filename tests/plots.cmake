@@ -1,4 +1,6 @@
-# The report's functions, by Debian's own Python, where matplotlib and h5py are.
-add_test(NAME unit/plots COMMAND /usr/bin/python3 -B -m unittest plots_test
-         WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)
-set_tests_properties(unit/plots PROPERTIES LABELS unit TIMEOUT 300 ENVIRONMENT "OMP_NUM_THREADS=1")
+# Pages and their statistics, by Debian's own Python, where matplotlib, h5py and scipy are.
+foreach(name plots cost)
+  add_test(NAME unit/${name} COMMAND /usr/bin/python3 -B -m unittest ${name}_test
+           WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+  set_tests_properties(unit/${name} PROPERTIES LABELS unit TIMEOUT 300 ENVIRONMENT "OMP_NUM_THREADS=1")
+endforeach()

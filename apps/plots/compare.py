@@ -18,6 +18,7 @@ import numpy as np  # noqa: E402
 import figures  # noqa: E402
 import measures  # noqa: E402
 import page  # noqa: E402
+import scatter  # noqa: E402
 import style  # noqa: E402
 from read_run import Missing, Run  # noqa: E402
 from report import attempt  # noqa: E402
@@ -36,8 +37,6 @@ QUANTITIES = [
     ("force on a grain (95th percentile of the largest)", "N", measures.grain_force, 1e-3, "kN"),
     ("contacts a grain at the end", "1", measures.coordination, 1, ""),
 ]
-STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262, 10: 2.228,
-           12: 2.179, 15: 2.131, 20: 2.086, 30: 2.042}
 COLOUR = {"rigid": style.BLUE, "elastic": style.RUST}
 
 
@@ -68,16 +67,6 @@ class Row:
         self.verdict = ""
 
 
-def student(freedom):
-    """97.5 % point of Student's t, never below the true one."""
-    return STUDENT[max(k for k in STUDENT if k <= freedom)]
-
-
-def interval(values):
-    """Half width of the mean's 95 % confidence interval."""
-    return student(len(values) - 1) * float(np.std(values, ddof=1)) / len(values) ** 0.5 if len(values) > 1 else np.nan
-
-
 def _value(run, measure):
     if run is None:
         return np.nan, "the run is not in the folder"
@@ -100,13 +89,13 @@ def compare_one(study, quantity, unit, measure, scale, shown_unit):
     rigid, elastic = np.array(both).T
     row.packings = len(both)
     row.rigid, row.elastic = float(rigid.mean()), float(elastic.mean())
-    row.rigid_ci, row.elastic_ci = interval(rigid), interval(elastic)
+    row.rigid_ci, row.elastic_ci = scatter.half_width(rigid), scatter.half_width(elastic)
     if row.rigid == 0:
         row.verdict = "no difference" if row.elastic == 0 else "only the elastic one has any"
         return row
     to_percent = 100 / abs(row.rigid)
     row.difference = (row.elastic - row.rigid) * to_percent
-    row.difference_ci = interval(elastic - rigid) * to_percent
+    row.difference_ci = scatter.half_width(elastic - rigid) * to_percent
     gaps = []
     for kind in COLOUR:
         first, again = values[kind][0][0], _value(study.repeat[kind], measure)[0]

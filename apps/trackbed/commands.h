@@ -39,6 +39,20 @@ struct CompareOptions {
   bool overwrite = false;
 };
 
+struct CostOptions {
+  std::string scene;
+  std::string output;  ///< folder; empty = results/<scene>_cost
+  std::vector<std::string> set;
+  std::vector<std::string> knobs;       ///< names; empty = all that matter
+  std::vector<std::string> pairs;       ///< "a:b": grids of two knobs
+  std::vector<std::string> tolerances;  ///< "settlement=5%"
+  int seeds = 3;
+  int threads = 0;  ///< runs at once, one thread each; 0 = all cores
+  bool dry_run = false;
+  bool resume = false;
+  bool overwrite = false;
+};
+
 struct ParametersOptions {
   std::string format = "prm";  ///< prm | json | markdown
 };
@@ -58,6 +72,7 @@ int run_command(const RunOptions&);
 int check_command(const CheckOptions&);
 int pack_command(const PackOptions&);
 int compare_command(const CompareOptions&);
+int cost_command(const CostOptions&);
 int parameters_command(const ParametersOptions&);
 int sieve_command(const SieveOptions&);
 int report_command(const ReportOptions&);

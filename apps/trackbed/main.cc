@@ -129,6 +129,30 @@ int run_program(int argc, char** argv) {
   command->add_flag("--overwrite", compare.overwrite, "replace what the folder holds");
   command->callback([&] { chosen = [&] { return compare_command(compare); }; });
 
+  CostOptions cost;
+  command = app.add_subcommand("cost", "accuracy against time: the ladder of every knob");
+  add_scene(*command, cost.scene, cost.set);
+  add_output(*command, cost.output, "results/<scene>_cost");
+  command->add_option("--knobs", cost.knobs, "names, comma-separated [all that matter]")
+      ->delimiter(',')
+      ->type_name("A,B");
+  command->add_option("--pairs", cost.pairs, "every combination of two knobs' rungs")
+      ->delimiter(',')
+      ->type_name("A:B");
+  command->add_option("--tolerance", cost.tolerances, "recommend the cheapest scene within it")
+      ->delimiter(',')
+      ->type_name("QUANTITY=5%");
+  command->add_option("--seeds", cost.seeds, "packings, each of another seed [3]")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  command->add_option("--threads", cost.threads, "runs at once, one thread each; 0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  command->add_flag("--dry-run", cost.dry_run, "list runs and expected times, run nothing");
+  command->add_flag("--resume", cost.resume, "keep the runs that are finished");
+  command->add_flag("--overwrite", cost.overwrite, "replace what the folder holds");
+  command->callback([&] { chosen = [&] { return cost_command(cost); }; });
+
   ReportOptions report;
   command = app.add_subcommand("report", "plots and one self-contained HTML page of a run");
   command->add_option("DIR", report.folder, "folder of a run")->required();

@@ -29,9 +29,11 @@ bool ends_with(const std::string& text, const std::string& end) {
 /// What a run, a packing, a comparison or a report writes (DESIGN: output of a run).
 bool written_by_a_run(const std::string& name) {
   for (const char* file :
-       {"cycles.csv", "compaction.csv", "history.csv", "energy.csv", "gradation.csv", "grains.csv",
-        "timing.csv", "scene.resolved.prm", "snapshots.h5", "snapshots.xdmf", "checkpoint.h5",
-        "report.html", "compare.csv", "compare.html", "summary.csv"})
+       {"cycles.csv",      "compaction.csv", "history.csv",        "energy.csv",   "gradation.csv",
+        "grains.csv",      "timing.csv",     "scene.resolved.prm", "snapshots.h5", "snapshots.xdmf",
+        "checkpoint.h5",   "report.html",    "compare.csv",        "compare.html", "summary.csv",
+        "cost.csv",        "cost.html",      "runs.csv",           "knobs.csv",    "tolerance.csv",
+        "recommended.prm", "recommended.txt"})
     if (name == file || name == file + std::string(".part")) return true;
   return starts_with(name, "structure_") || starts_with(name, "snapshots") ||
          ends_with(name, ".png");
@@ -41,7 +43,7 @@ bool written_by_a_run(const std::string& name) {
 
 bool OutputFolder::holds_run(const std::string& folder) {
   for (const char* name : {"scene.resolved.prm", "checkpoint.h5", "cycles.csv", "history.csv",
-                           "compare.csv", "rigid", "elastic"})
+                           "compare.csv", "rigid", "elastic", "runs.csv"})
     if (fs::exists(fs::path(folder) / name)) return true;
   return false;
 }

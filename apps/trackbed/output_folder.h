@@ -4,7 +4,8 @@
 
 namespace trackbed::apps {
 
-enum class EarlierRun { refuse, overwrite, resume };
+/// keep: a folder of several runs that knows itself which of them are finished.
+enum class EarlierRun { refuse, overwrite, resume, keep };
 
 class OutputFolder {
  public:

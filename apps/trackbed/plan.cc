@@ -37,7 +37,7 @@ StructureCost measure(fem::Structure& structure, double dt) {
   const std::vector<fem::Vec> no_forces(structure.surface().nodes.size(), fem::Vec{0, 0, 0});
   std::vector<fem::Vec> u, v;
   structure.advance(no_forces);  // the first one warms up
-  cost.seconds = 1e300;  // the fastest of some: what is left when nothing else runs
+  cost.seconds = 1e300;          // the fastest of some: what is left when nothing else runs
   for (int steps = 0; steps < 10; ++steps) {
     const auto start = Clock::now();
     structure.predict(u, v);
@@ -64,9 +64,9 @@ std::vector<Effect> effects_of(const Scene& s, const Plan& plan) {
                      s.sleeper.model == "elastic" && s.sleeper.pad_thickness > 0
                          ? "elements of a second material"
                          : "Sleeper/Pad thickness with an elastic sleeper"});
-  effects.push_back({"elastic subgrade", plan.subgrade.unknowns > 0,
-                     plan.subgrade.unknowns > 0 ? text_of(plan.subgrade)
-                                                : "Subgrade/Model other than rigid"});
+  effects.push_back(
+      {"elastic subgrade", plan.subgrade.unknowns > 0,
+       plan.subgrade.unknowns > 0 ? text_of(plan.subgrade) : "Subgrade/Model other than rigid"});
   effects.push_back(
       {"periodic along track", s.container.periodic,
        s.container.periodic ? "images of grains at the seam" : "Container/Periodic along track"});
@@ -128,13 +128,13 @@ Plan make_plan(const Scene& scene, int threads) {
     sample.materials = make_materials(scene, stage.modulus, stage.friction);
     const double limit = dem::expected_limit(sample.bodies, sample.shapes, sample.materials, {}).dt;
     const double dt = given > 0 ? given : stage.margin * limit;
-    const double usual = stage.name == "deposit"      ? usual_deposit
+    const double usual = stage.name == "deposit"     ? usual_deposit
                          : stage.name == "hardening" ? usual_hardening
                          : stage.until_quiet         ? usual_settling
                                                      : stage.longest;
     const double duration = std::min(usual, stage.longest);
     plan.stages.push_back(
-        {stage.name, duration, stage.longest, dt, std::ceil(duration / dt), stage.ledger});
+        {stage.name, duration, stage.longest, dt, std::ceil(duration / dt), stage.ledger, 0});
   }
 
   const double dt = plan.stages.empty() ? 1e-5 : plan.stages.back().time_step;
@@ -149,7 +149,7 @@ Plan make_plan(const Scene& scene, int threads) {
   }
   const double d = std::cbrt(layout.bed_mass / (scene.grains.density * 0.6 * plan.grains));
   const double surface_contacts = area / (d * d);
-  for (const auto& stage : plan.stages) {
+  for (auto& stage : plan.stages) {
     const bool filled = stage.name != "deposit" && stage.name != "tamping";
     const double count = plan.grains + (filled ? plan.fill_grains : 0);
     // As many threads as a step uses (stages.cc).
@@ -158,7 +158,8 @@ Plan make_plan(const Scene& scene, int threads) {
     if (stage.loads) step += seconds_per_surface_contact * surface_contacts;
     step *= 1 - parallel_share + parallel_share / std::max(1.0, workers);
     if (stage.loads) step += plan.sleeper.seconds + plan.subgrade.seconds;
-    plan.seconds += stage.steps * step;
+    stage.seconds = stage.steps * step;
+    plan.seconds += stage.seconds;
   }
   const auto factor = [](const StructureCost& c) {
     return 12 * 81 * c.unknowns + (c.solves ? 12 * 8 * std::pow(c.unknowns, 4.0 / 3) : 0);

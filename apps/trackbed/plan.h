@@ -17,11 +17,12 @@ struct Effect {
 
 struct PlanStage {
   std::string name;
-  double duration;   ///< simulated, as is usual [s]
-  double longest;    ///< at most [s]
-  double time_step;  ///< [s]
-  double steps;      ///< of the usual duration
-  bool loads;        ///< with the scene's structures
+  double duration;     ///< simulated, as is usual [s]
+  double longest;      ///< at most [s]
+  double time_step;    ///< [s]
+  double steps;        ///< of the usual duration
+  bool loads;          ///< with the scene's structures
+  double seconds = 0;  ///< of computing, of the usual duration
 };
 
 struct StructureCost {

@@ -49,7 +49,13 @@ void Progress::begin(const std::string& stage, double time, double end) {
   end_ = end;
   begun_ = shown_ = Clock::now();
   active_ = true;
+  work_ = false;
   if (terminal_) draw(time, "", false);
+}
+
+void Progress::begin_work(const std::string& stage, double done, double total) {
+  begin(stage, done, total);
+  work_ = true;
 }
 
 bool Progress::due() const {
@@ -84,7 +90,14 @@ void Progress::draw(double time, const std::string& detail, bool last) {
 
   char head[160], tail[160] = "";
   std::snprintf(head, sizeof head, "%-10s", stage_.c_str());
-  if (last)
+  if (work_ && last)
+    std::snprintf(tail, sizeof tail, " took %s", duration_text(elapsed).c_str());
+  else if (work_ && rate > 0)
+    std::snprintf(tail, sizeof tail, " %3.0f %%  %s left", 100 * share,
+                  duration_text((end_ - time) / rate).c_str());
+  else if (work_)
+    std::snprintf(tail, sizeof tail, " %3.0f %%", 100 * share);
+  else if (last)
     std::snprintf(tail, sizeof tail, " t = %.4f s, took %s", time, duration_text(elapsed).c_str());
   else if (rate > 0)
     std::snprintf(tail, sizeof tail, " %3.0f %%  t = %.4f of %.4g s, %.2g s/min, %s left",

@@ -15,6 +15,10 @@ class Progress {
   /// A stage begins: name ("tamping"), simulated time now and at its end [s].
   void begin(const std::string& stage, double time, double end);
 
+  /// The same for work without a simulated time: how much is done, and how much there is, in
+  /// seconds as expected; the time that is left follows from the pace so far.
+  void begin_work(const std::string& stage, double done, double total);
+
   /// Call as often as you like; draws at most 5 times a second (log: every 10 s).
   /// `detail` is what matters in this stage now ("settlement 1.23 mm", "1540 kg/m3").
   void update(double time, const std::string& detail);
@@ -36,6 +40,7 @@ class Progress {
   bool terminal_;
   bool drawn_ = false;  ///< a bar stands on the current line
   bool active_ = false;
+  bool work_ = false;  ///< not a simulated time
   std::string stage_;
   double start_ = 0, end_ = 0;
   Clock::time_point begun_, shown_;

@@ -237,6 +237,39 @@ class Commands(SceneTest):
             self.assert_sound(self.folder / "c" / name)
         self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 1, "one packing for all")
 
+    def cost(self, *options, **more):
+        sets = [f"--set={path}={value}" for path, value in {**SHORT, "Packing/Settle time": "0.2"}.items()]
+        return self.trackbed("cost", "tiny.prm", "--output", "c", "--seeds", "2", "--knobs", "sleeper_elements",
+                             *sets, *options, **more)
+
+    def test_cost(self):
+        dry = self.cost("--dry-run")
+        self.assertIn("2 packings and 8 runs", dry.stdout)
+        self.assertFalse((self.folder / "c").exists())
+        self.cost("--tolerance", "settlement=1000%")
+        runs = rows(self.folder / "c" / "runs.csv")
+        self.assertEqual({row["status"] for row in runs}, {"done"})
+        self.assertEqual(len([row for row in runs if row["knob"] == "sleeper_elements"]), 6)
+        self.assertTrue(all(float(row["run_processor_s"]) > 0 for row in runs))
+        table = {(row["value"], row["quantity"]): row for row in rows(self.folder / "c" / "cost.csv")}
+        self.assertEqual(table["4, 4, 2", "settlement"]["verdict"], "reference")
+        self.assertEqual(table["2, 2, 1", "settlement"]["own"], "1")
+        self.assertEqual(float(table["2, 2, 1", "settlement"]["time_over_own"]), 1)
+        self.assertGreater((self.folder / "c" / "cost.html").stat().st_size, 1000)
+        # The scene's own rung is the scene's own run.
+        own = next(row["folder"] for row in runs if row["knob"] == "own")
+        self.assertIn(own, [row["folder"] for row in runs if row["knob"] == "sleeper_elements"])
+        if (self.folder / "c" / "recommended.prm").exists():
+            self.trackbed("check", "c/recommended.prm")
+        # Finished runs are recognised; a lost one is made again.
+        stamp = {p: p.stat().st_mtime_ns for p in (self.folder / "c" / "runs").rglob("cycles.csv")}
+        lost = self.folder / "c" / own / "job.csv"
+        lost.unlink()
+        self.cost("--resume")
+        again = [p for p, time in stamp.items() if p.stat().st_mtime_ns != time]
+        self.assertEqual(again, [lost.parent / "cycles.csv"])
+        self.assertEqual(len(rows(self.folder / "c" / "cost.csv")), len(table))
+
     def test_report(self):
         self.run_scene("a", change=SHORT)
         self.trackbed("report", "a")

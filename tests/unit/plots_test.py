@@ -347,11 +347,6 @@ class Numbers(unittest.TestCase):
         self.assertEqual(style.number(float("nan")), "–")
         self.assertEqual(style.duration(3725), "62 min 05 s")
 
-    def test_students_t(self):
-        self.assertAlmostEqual(compare.interval(np.array([1.0, 2.0, 3.0])), 4.303 / np.sqrt(3), 6)
-        self.assertTrue(np.isnan(compare.interval(np.array([1.0]))))
-        self.assertEqual(compare.student(17), compare.STUDENT[15])   # never below the true one
-
 
 class Rendering(unittest.TestCase):
     def test_nearest_triangle_wins_and_areas_are_exact(self):
