@@ -94,6 +94,8 @@ template <class A>
 void visit(A& archive, const std::string& at, Surface& s) {
   archive(at + "node", s.patch.node), archive(at + "velocity", s.patch.velocity);
   archive(at + "force", s.patch.force), archive(at + "last_force", s.last_force);
+  archive(at + "given", s.given), archive(at + "owed", s.owed);
+  archive(at + "owed_before", s.owed_before);
   archive(at + "work_predicted", s.work_predicted);
   archive(at + "node_travel", s.contacts.node_travel);
   archive(at + "searched_at", s.contacts.searched_at);
@@ -162,7 +164,8 @@ void read_surfaces(ArchiveReader& archive, World& w) {
     const std::size_t nodes = s.patch.node.size(), carried = s.patch.force.size();
     visit(archive, at(k), s);
     if (s.patch.node.size() != nodes || s.patch.velocity.size() != nodes ||
-        s.patch.force.size() != carried || s.last_force.size() != carried)
+        s.patch.force.size() != carried || s.last_force.size() != carried ||
+        s.given.size() != carried || s.owed.size() != carried || s.owed_before.size() != carried)
       throw InputError("checkpoint: surface '" + s.patch.name + "' has another mesh (" +
                        std::to_string(s.patch.node.size()) + " nodes, the scene's " +
                        std::to_string(nodes) + ")");

@@ -74,7 +74,7 @@ dem::TimeStepLimit measured_limit(const World& w, int threads) {
   if (surface == 0) return limit;
   if (std::sqrt(surface) > limit.omega) limit.body = body;
   limit.omega = std::sqrt(limit.omega * limit.omega + surface);
-  limit.dt = 2 / limit.omega;
+  limit.dt = std::min(2 / limit.omega, 2 / (steps_per_exchange(w) * std::sqrt(surface)));
   return limit;
 }
 

@@ -17,7 +17,7 @@ Surface make_surface(const std::string& name, int material, double shell_depth, 
   for (int i = 0; i < s.patch.carried; ++i)
     s.patch.node[i] += Vec3(s.displacement[i][0], s.displacement[i][1], s.displacement[i][2]);
   dem::move_skirt(s.patch);
-  s.last_force = s.patch.force;
+  s.last_force = s.given = s.owed = s.owed_before = s.patch.force;
   s.forces.resize(nodes.size());
   s.structure = std::move(structure);
   return s;

@@ -159,6 +159,7 @@ ElasticBody::~ElasticBody() = default;
 const SurfaceMesh& ElasticBody::surface() const { return parts_->surface.mesh; }
 const ElasticBodyParameters& ElasticBody::parameters() const { return parts_->p; }
 void ElasticBody::set_step(double dt) { parts_->stepper.set_step(dt); }
+double ElasticBody::explicit_limit() const { return parts_->stepper.explicit_limit(); }
 bool ElasticBody::is_explicit() const { return parts_->stepper.is_explicit(); }
 
 void ElasticBody::predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const {

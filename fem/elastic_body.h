@@ -128,6 +128,7 @@ class ElasticBody final : public Structure {
 
   const SurfaceMesh& surface() const override;
   void set_step(double dt) override;
+  double explicit_limit() const override;
   void predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const override;
   void advance(const std::vector<Vec>& surface_forces) override;
   void motion(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const override;

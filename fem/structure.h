@@ -55,6 +55,9 @@ class Structure {
   /// factorisation a rung. \throws InputError if dt is not positive.
   virtual void set_step(double dt) = 0;
 
+  /// Largest step [s] that goes without a solve, the surface just where predict() says; 0: none.
+  virtual double explicit_limit() const { return 0; }
+
   /// Surface nodes at t+dt: u + dt v + ½ dt² a [m] and v + dt a [m/s] (METHODS F). Vectors are
   /// resized.
   virtual void predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const = 0;

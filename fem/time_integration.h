@@ -46,6 +46,8 @@ class Stepper {
   void set_step(double dt);
   double step() const { return dt_; }
   bool is_explicit() const { return explicit_; }
+  /// Largest step without a solve [s]; 0: none.
+  double explicit_limit() const { return explicit_limit_; }
 
   /// From t to t+Δt under the outer force at t+Δt.
   void advance(Motion&, const std::vector<double>& force);

@@ -150,6 +150,13 @@ void check_densities(const Check& c) {
   if (p.folder.empty()) c.refuse("Packing/Folder", "a folder's name is needed");
 }
 
+void check_exchange(const Check& c) {
+  const auto& n = c.scene.numerics;
+  if (n.grain_steps > 1 && n.exchange != "several_steps")
+    c.refuse("Numerics/Grain steps per exchange",
+             "is used only with Numerics/Exchange = several_steps, not with " + n.exchange);
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene, const ParameterValues& values) {
@@ -159,6 +166,7 @@ void check_scene(const Scene& scene, const ParameterValues& values) {
   check_densities(check);
   check_gradation(check);
   check_loading(check);
+  check_exchange(check);
 }
 
 }  // namespace trackbed::apps

@@ -1,5 +1,6 @@
 #include "apps/trackbed/choices.h"
 
+#include "coupling/exchange.h"
 #include "dem/grading/curve.h"
 #include "dem/grading/sieve_size.h"
 #include "dem/grain/library.h"
@@ -22,6 +23,12 @@ std::vector<std::string> subgrade_models() {
 }
 
 std::vector<std::string> waveforms() { return {"sine", "triangle"}; }
+
+std::vector<std::string> exchange_schedules() {
+  std::vector<std::string> names;
+  for (const auto& s : coupling::schedules()) names.push_back(s.name);
+  return names;
+}
 
 std::vector<Parameter> subgrade_parameters() {
   std::vector<Parameter> table;

@@ -13,6 +13,7 @@ std::vector<std::string> gradation_curves();  ///< without "table"
 std::vector<std::string> contact_laws();
 std::vector<std::string> subgrade_models();  ///< "rigid" first
 std::vector<std::string> waveforms();
+std::vector<std::string> exchange_schedules();  ///< the default first
 
 /// Parameters that the subgrade models bring along, each in the section "Subgrade/<model>".
 std::vector<Parameter> subgrade_parameters();

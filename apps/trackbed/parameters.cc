@@ -169,8 +169,15 @@ void add_numerics(Section s) {
   s.number("Time step", "0", "s", 0, 1, "fixed step of all stages; 0 = from the margins");
   s.number("Spectral radius", "0.9", "-", 0, 1,
            "of generalised-alpha at infinite frequency; 1 = Newmark's trapezoidal rule");
+  s.choice("Exchange", "predicted", exchange_schedules(),
+           "of forces and motion between grains and structures: predicted, one force on both sides "
+           "at each step; explicit, structures without a solve; several_steps; iterated; lagged, "
+           "only to show what a delay does");
+  s.integer("Grain steps per exchange", "1", 1, 1000, "with Exchange = several_steps");
+  s.number("Exchange tolerance", "1e-8", "-", 1e-13, 0.1,
+           "of Exchange = iterated: what remains to move over the deepest overlap");
   s.number("Closure", "0.01", "-", 1e-12, 1,
-           "share of the work done beyond which the energy ledger is reported open");
+           "share of the work done beyond which an open energy ledger fails the run");
   s.number("Mirror noise", "0", "-", 0, 1e-6,
            "relative change of the start to show the noise floor; 0 = off");
 }
@@ -180,6 +187,8 @@ void add_output(Section s) {
   s.number("Snapshot interval", "0.05", "s", 0, 1e6, "0 = at the stages' ends only");
   s.number("Checkpoint interval", "5", "min", 0, 1e5,
            "of wall-clock time; 0 = at stages' ends only");
+  s.integer("Energy interval", "0", 0, 1e9,
+            "steps between lines of energy.csv besides those of history.csv; 0 = none besides");
   s.boolean("Structure fields", "true", "write the structures' deformation with every snapshot");
 }
 

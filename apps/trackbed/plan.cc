@@ -85,6 +85,15 @@ std::vector<Effect> effects_of(const Scene& s, const Plan& plan) {
                      s.packing.plate_cycles > 0
                          ? "at most " + std::to_string(s.packing.plate_cycles) + " cycles"
                          : "Packing/Plate cycles"});
+  const NumericsScene& n = s.numerics;
+  effects.push_back(
+      {"exchange other than predicted", n.exchange != "predicted",
+       n.exchange == "predicted" ? "Numerics/Exchange"
+       : n.exchange == "several_steps"
+           ? "structures step once in " + std::to_string(n.grain_steps) + " grain steps"
+       : n.exchange == "iterated" ? "two or three structure steps and surface "
+                                    "evaluations a step"
+                                  : n.exchange});
   effects.push_back({"last-bit noise of the start", s.numerics.mirror_noise > 0,
                      s.numerics.mirror_noise > 0 ? "nothing" : "Numerics/Mirror noise"});
   return effects;

@@ -131,6 +131,9 @@ NumericsScene numerics(const Values& v) {
   n.packing_margin = v.number("Numerics/Packing margin");
   n.time_step = v.number("Numerics/Time step");
   n.spectral_radius = v.number("Numerics/Spectral radius");
+  n.exchange = v.text("Numerics/Exchange");
+  n.grain_steps = static_cast<int>(v.integer("Numerics/Grain steps per exchange"));
+  n.exchange_tolerance = v.number("Numerics/Exchange tolerance");
   n.closure = v.number("Numerics/Closure");
   n.mirror_noise = v.number("Numerics/Mirror noise");
   return n;
@@ -141,6 +144,7 @@ OutputScene output(const Values& v) {
   o.samples_per_cycle = static_cast<int>(v.integer("Output/Samples per cycle"));
   o.snapshot_interval = v.number("Output/Snapshot interval");
   o.checkpoint_interval = v.number("Output/Checkpoint interval");
+  o.energy_interval = static_cast<int>(v.integer("Output/Energy interval"));
   o.structure_fields = v.boolean("Output/Structure fields");
   return o;
 }

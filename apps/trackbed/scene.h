@@ -96,16 +96,20 @@ struct LoadingScene {
 struct NumericsScene {
   double margin;  ///< share of the stability limit
   double packing_margin;
-  double time_step;        ///< fixed step [s]; 0 = from margin
-  double spectral_radius;  ///< of generalised-alpha at infinite frequency; 1 = Newmark
-  double closure;          ///< share of the work done beyond which the ledger is reported open
-  double mirror_noise;  ///< relative size of a last-bit change of the start (noise floor)
+  double time_step;           ///< fixed step [s]; 0 = from margin
+  double spectral_radius;     ///< of generalised-alpha at infinite frequency; 1 = Newmark
+  std::string exchange;       ///< schedule of coupling/exchange.h
+  int grain_steps;            ///< per exchange, with several_steps
+  double exchange_tolerance;  ///< of iterated
+  double closure;             ///< share of the work done beyond which the run fails
+  double mirror_noise;        ///< relative size of a last-bit change of the start (noise floor)
 };
 
 struct OutputScene {
   int samples_per_cycle;       ///< lines of history.csv per load cycle
   double snapshot_interval;    ///< [s]; 0 = at stage ends only
   double checkpoint_interval;  ///< wall-clock minutes between checkpoints
+  int energy_interval;         ///< steps between lines of energy.csv; 0 = with history.csv
   bool structure_fields;       ///< VTU of the structures with every snapshot
 };
 

@@ -84,7 +84,13 @@ using EvaluatePatch = void (*)(const Bodies&, const ShapeTable&, const PairMater
 /// The evaluation throws RunError naming a grain that reaches past the bottom of the shell.
 EvaluatePatch make_patch_forces(const std::string& law, bool friction);
 
-/// Adds the contacts' forces to the grains and writes SurfacePatch::force, both in fixed order.
+/// Adds the contacts' forces to the grains, in fixed order.
+void sum_grain_forces(const PatchContacts&, Bodies&);
+
+/// Writes SurfacePatch::force, in fixed order.
+void sum_node_forces(const PatchContacts&, SurfacePatch&);
+
+/// Both.
 void sum_patch_forces(const PatchContacts&, Bodies&, SurfacePatch&);
 
 int count_contacts(const PatchContacts&);

@@ -165,6 +165,42 @@ class Runs(SceneTest):
             self.assertAlmostEqual(float(one["u_max_m"]), float(other["u_max_m"]), delta=1e-6)
 
 
+class Exchange(SceneTest):
+    def test_exchange_schedules(self):
+        """Every schedule but the lagged one ends where the default does, ledger closed."""
+        # A lumped sleeper of few cells turns less easily: explicit is compared under a rigid one.
+        settled = {}
+        for model in ("elastic", "rigid"):
+            run = self.run_scene(model, change={**SHORT, "Sleeper/Model": model})
+            settled[model] = float(rows(run / "cycles.csv")[0]["u_max_m"])
+        for schedule, n in (("explicit", 1), ("iterated", 1), ("several_steps", 2), ("several_steps", 5)):
+            with self.subTest(schedule, n=n):
+                model = "rigid" if schedule == "explicit" else "elastic"
+                change = {**SHORT, "Sleeper/Model": model, "Numerics/Exchange": schedule,
+                          "Numerics/Grain steps per exchange": n}
+                run = self.run_scene(f"{schedule}_{n}", change=change)
+                self.assert_sound(run)
+                self.assertAlmostEqual(float(rows(run / "cycles.csv")[0]["u_max_m"]), settled[model],
+                                       delta=0.01 * abs(settled[model]))
+
+    def test_energy_lines_at_an_interval(self):
+        few = self.run_scene("few", change=SHORT)
+        many = self.run_scene("many", change={**SHORT, "Output/Energy interval": 3})
+        self.assertGreater(len(rows(many / "energy.csv")), 2 * len(rows(few / "energy.csv")))
+        self.assertEqual(plain(few / "cycles.csv"), plain(many / "cycles.csv"))
+
+    def test_open_ledger_fails_the_run(self):
+        done = self.trackbed("run", "tiny.prm", "--output", "a", "--set=Packing/Folder=packings",
+                             "--set=Numerics/Closure=1e-12", *[f"--set={k}={v}" for k, v in SHORT.items()],
+                             exit_code=1)
+        line = done.stderr.strip().splitlines()[-1]
+        self.assertRegex(line, r"step \d+ \(loading.*Numerics/Closure allows.*(halve|exchange)")
+
+    def test_steps_per_exchange_without_its_schedule(self):
+        done = self.trackbed("check", "tiny.prm", "--set=Numerics/Grain steps per exchange=4", exit_code=2)
+        self.assertIn("several_steps", done.stderr)
+
+
 class SameAnswer(SceneTest):
     def test_threads(self):
         # A hundred grains: enough for a second thread.

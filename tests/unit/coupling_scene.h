@@ -19,10 +19,10 @@ using dem::Quat;
 using dem::Vec3;
 
 /// One mass m on a ground spring k that carries a flat square of four nodes, up and down only;
-/// Newmark (1/4, 1/2). `lag`: offers the place of the old time instead of the predicted one.
+/// Newmark (1/4, 1/2) or velocity Verlet.
 class MassOnSpring final : public fem::Structure {
  public:
-  MassOnSpring(double m, double k, double half_width, bool lag) : m_(m), k_(k), lag_(lag) {
+  MassOnSpring(double m, double k, double half_width, bool verlet) : m_(m), k_(k), verlet_(verlet) {
     const double h = half_width;
     mesh_.nodes = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
     mesh_.quads = {{0, 1, 2, 3}};
@@ -34,15 +34,19 @@ class MassOnSpring final : public fem::Structure {
 
   const fem::SurfaceMesh& surface() const override { return mesh_; }
   void set_step(double dt) override { dt_ = dt; }
+  double explicit_limit() const override { return verlet_ ? 2 / largest_frequency() : 0; }
   void predict(std::vector<fem::Vec>& x, std::vector<fem::Vec>& speed) const override {
-    x.assign(4, {0, 0, lag_ ? u : u + dt_ * (v + dt_ / 2 * a)});
-    speed.assign(4, {0, 0, lag_ ? v : v + dt_ * a});
+    x.assign(4, {0, 0, u + dt_ * (v + dt_ / 2 * a)});
+    speed.assign(4, {0, 0, v + dt_ * a});
   }
   void advance(const std::vector<fem::Vec>& forces) override {
     double f = 0;
     for (const auto& p : forces) f += p[2];
-    const double next = (f - k_ * (u + dt_ * v + dt_ * dt_ / 4 * a)) / (m_ + k_ * dt_ * dt_ / 4);
-    u += dt_ * v + dt_ * dt_ / 4 * (a + next);
+    const double end = u + dt_ * (v + dt_ / 2 * a);
+    const double next =
+        verlet_ ? (f - k_ * end) / m_
+                : (f - k_ * (u + dt_ * v + dt_ * dt_ / 4 * a)) / (m_ + k_ * dt_ * dt_ / 4);
+    u = verlet_ ? end : u + dt_ * v + dt_ * dt_ / 4 * (a + next);
     v += dt_ / 2 * (a + next);
     a = next;
   }
@@ -68,7 +72,7 @@ class MassOnSpring final : public fem::Structure {
 
  private:
   double m_, k_, dt_ = 0;
-  bool lag_;
+  bool verlet_;
   fem::SurfaceMesh mesh_;
 };
 
@@ -115,7 +119,7 @@ inline dem::StepContext context(double dt, const Vec3& gravity, int threads = 1)
 inline void start(World& w, const dem::StepContext& c) {
   dem::StepContext still = c;
   still.dt = 0;
-  for (Surface& s : w.surfaces) s.structure->set_step(c.dt);
+  set_step(w, c.dt);
   prepare(w, still);
   open_ledger(w, c.gravity);
 }

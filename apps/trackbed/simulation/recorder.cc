@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/trackbed/files.h"
+#include "dem/motion/energy.h"
 
 namespace trackbed::apps {
 namespace {
@@ -61,13 +62,17 @@ Recorder::Recorder(const std::string& folder, const std::vector<int>& rows)
       compaction_(open(folder, "compaction.csv", kCompaction, rows, 3)) {}
 
 void Recorder::sample(Run& run, const Stage& stage) {
-  const dem::Vec3 gravity = step_context(run, stage).gravity;
-  const coupling::EnergyStores now = coupling::stores(run.world, gravity);
   const bool sleeper = run.actors.rigid_sleeper || run.actors.sleeper_surface >= 0;
   const CsvCell u = sleeper ? CsvCell(sleeper_displacement(run) - run.stage.u0) : CsvCell();
-  history_.row({run.world.time, stage.name, run.stage.load, u, now.kinetic,
-                coupling::count_contacts(run.world), coupling::coordination(run.world)});
+  history_.row({run.world.time, stage.name, run.stage.load, u,
+                dem::kinetic_energy(run.world.bodies), coupling::count_contacts(run.world),
+                coupling::coordination(run.world)});
+  energy(run, stage);
+}
+
+void Recorder::energy(Run& run, const Stage& stage) {
   if (!stage.ledger) return;
+  const coupling::EnergyStores now = coupling::stores(run.world, step_context(run, stage).gravity);
   const coupling::EnergyFlows f = coupling::flows(run.world);
   const double open = coupling::closure(run.world.start, now, f);
   energy_.row({run.world.time, now.kinetic, now.gravity, now.contact, now.structure,
@@ -76,6 +81,7 @@ void Recorder::sample(Run& run, const Stage& stage) {
   run.stage.work_in += std::max(0.0, f.work - run.stage.last_work);
   run.stage.last_work = f.work;
   run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));
+  run.stage.exchange_gain = std::max(run.stage.exchange_gain, -f.transfer_error);
 }
 
 void Recorder::cycle(const Run& run, const Stage&, double load_start, double u_start) {

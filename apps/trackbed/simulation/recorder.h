@@ -23,6 +23,9 @@ class Recorder {
   /// A line of history and, while a ledger is open, of energy; keeps its worst closure.
   void sample(Run&, const Stage&);
 
+  /// The line of energy alone.
+  void energy(Run&, const Stage&);
+
   /// A line of cycles (loading) at the end of a load cycle.
   void cycle(const Run&, const Stage&, double load_start, double u_start);
 

@@ -77,6 +77,8 @@ void write_summary(const Run& run, const std::string& file, double wall) {
   row("closure", s.work_in > 0 ? CsvCell(s.worst_closure / s.work_in) : CsvCell(), "-",
       "largest energy not accounted for, over the work put in while loading");
   row("closure tolerance", run.scene.numerics.closure, "-", "stated in the scene");
+  row("exchange gain", s.work_in > 0 ? CsvCell(s.exchange_gain / s.work_in) : CsvCell(), "-",
+      "largest energy that the exchange made, over the work put in while loading");
   for (const coupling::Surface& surface : w.surfaces)
     csv.row({"unknowns of the " + surface.patch.name, surface.structure->unknowns(), "-",
              "finite element degrees of freedom"});

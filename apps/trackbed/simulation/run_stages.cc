@@ -22,7 +22,7 @@ constexpr double kShareOfLimit = 0.9;  // of the measured limit at which the ste
 
 void set_step(Run& run, double dt) {
   run.stage.dt = dt;
-  for (coupling::Surface& s : run.world.surfaces) s.structure->set_step(dt);
+  coupling::set_step(run.world, dt);
 }
 
 // A priori: margin times the limit of the stiffest contact to expect; whole steps a cycle.
@@ -31,7 +31,18 @@ void choose_step(Run& run, const Stage& stage) {
   dem::TimeStepLimit limit =
       dem::expected_limit(run.world.bodies, run.world.shapes, run.world.materials, {});
   const dem::TimeStepLimit now = coupling::measured_limit(run.world, run.threads);
-  double dt = stage.margin * std::min(limit.dt, now.dt);
+  double dt = stage.margin * std::min(limit.dt, 2 / now.omega);
+  const int per_exchange = coupling::steps_per_exchange(run.world);
+  if (per_exchange > 1 && dt > now.dt) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "Numerics/Grain steps per exchange: %d steps of %.3g s are over the stability "
+                  "limit of grains on the surfaces in stage '%s' (%.3g s); %d would do",
+                  per_exchange, dt, stage.name.c_str(), per_exchange * now.dt,
+                  std::max(1, static_cast<int>(kShareOfLimit * per_exchange * now.dt / dt)));
+    throw InputError(text);
+  }
+  dt = std::min(dt, coupling::schedule_limit(run.world));
   if (n.time_step > 0) {
     if (n.time_step > std::min(limit.dt, now.dt)) {
       char text[200];
@@ -46,8 +57,9 @@ void choose_step(Run& run, const Stage& stage) {
   run.stage.steps_per_cycle = 0;
   if (stage.period > 0) {
     const int samples = 2 * std::max(1, run.scene.output.samples_per_cycle / 2);
-    const int per_sample = static_cast<int>(std::ceil(stage.period / dt / samples));
-    run.stage.steps_per_cycle = per_sample * samples;
+    // Whole exchanges between samples.
+    const int exchanges = static_cast<int>(std::ceil(stage.period / dt / samples / per_exchange));
+    run.stage.steps_per_cycle = exchanges * per_exchange * samples;
     dt = stage.period / run.stage.steps_per_cycle;
   }
   set_step(run, dt);
@@ -71,7 +83,7 @@ void enter(Run& run, const Stage& stage) {
     if (run.scene.numerics.mirror_noise > 0)
       run.world.bodies.x[0] *= 1 + run.scene.numerics.mirror_noise;
     coupling::open_ledger(run.world, step_context(run, stage).gravity);
-    s.work_in = s.last_work = s.worst_closure = 0;
+    s.work_in = s.last_work = s.worst_closure = s.exchange_gain = 0;
   }
 }
 
@@ -92,6 +104,14 @@ void monitor(Run& run, const Stage& stage, Progress& progress) {
       std::max(s.largest_overlap, dem::deepest_overlap(w.bodies, w.shapes, w.pairs).share);
   const dem::TimeStepLimit limit = coupling::measured_limit(w, run.threads);
   s.largest_step_share = std::max(s.largest_step_share, s.dt / limit.dt);
+  if (s.dt > limit.dt && run.scene.numerics.time_step > 0) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "step %ld: Numerics/Time step: %.3g s is over the stability limit, which fell to "
+                  "%.3g s in stage '%s' (body %d); %.3g s would do",
+                  w.step, s.dt, limit.dt, stage.name.c_str(), limit.body, stage.margin * limit.dt);
+    throw RunError(text);
+  }
   if (s.dt > kShareOfLimit * limit.dt && run.scene.numerics.time_step == 0) {
     ++s.halvings;
     s.steps *= 2;
@@ -103,6 +123,28 @@ void monitor(Run& run, const Stage& stage, Progress& progress) {
                   stage.name.c_str(), s.dt, limit.dt, limit.body);
     progress.note(text);
   }
+}
+
+// At the end of each load cycle: no more energy from nowhere than the scene allows.
+void check_ledger(const Run& run, const Stage& stage) {
+  const StageState& s = run.stage;
+  const double allowed = run.scene.numerics.closure;
+  if (!stage.ledger || !(s.work_in > 0)) return;
+  const bool open = s.worst_closure > allowed * s.work_in;
+  const double amount = open ? s.worst_closure : s.exchange_gain;
+  if (!open && !(s.exchange_gain > allowed * s.work_in)) return;
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "step %ld (%s, %.4g s): %s %.3g J, %.2g %% of the %.3g J put in; Numerics/Closure "
+                "allows %.2g %%. %s",
+                run.world.step, stage.name.c_str(), run.world.time,
+                open ? "the energy ledger is open by" : "the exchange with the structures made",
+                amount, 100 * amount / s.work_in, s.work_in, 100 * allowed,
+                open ? "The time step is probably too large for the contacts: halve "
+                       "Numerics/Margin or Numerics/Time step."
+                     : "Its steps are too long, or it is lagged: Numerics/Exchange = predicted or "
+                       "iterated, or fewer grain steps per exchange.");
+  throw RunError(text);
 }
 
 void keep_grain_forces(Run& run) {
@@ -180,16 +222,21 @@ void start_of_stage(Run& run, const Stage& stage, Recorder& recorder) {
   recorder.sample(run, stage);
 }
 
-bool sample_due(const StageState& s, const Scene& scene) {
+// Whether a multiple of `interval` steps was reached with the last `taken` of them.
+bool reached(const StageState& s, int interval, int taken) {
+  return s.steps / std::max(1, interval) != (s.steps - taken) / std::max(1, interval);
+}
+
+bool sample_due(const StageState& s, int taken, const Scene& scene) {
   if (s.steps_per_cycle > 0) {
     const int samples = 2 * std::max(1, scene.output.samples_per_cycle / 2);
     return s.steps % (s.steps_per_cycle / samples) == 0;
   }
-  return s.steps % std::max(1, static_cast<int>(kSampleTime / s.dt)) == 0;
+  return reached(s, static_cast<int>(kSampleTime / s.dt), taken);
 }
 
-bool snapshot_due(const StageState& s, double interval) {
-  return interval > 0 && s.steps % std::max(1, static_cast<int>(interval / s.dt + 0.5)) == 0;
+bool snapshot_due(const StageState& s, int taken, double interval) {
+  return interval > 0 && reached(s, static_cast<int>(interval / s.dt + 0.5), taken);
 }
 
 }  // namespace
@@ -224,19 +271,25 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     const coupling::Drive drive = [&](coupling::World&, double time) {
       apply_load(run, stage.load(run, time - s.start));
     };
+    const int taken = coupling::steps_per_exchange(run.world);
     bool over = false;
     while (!over) {
       coupling::advance(run.world, step_context(run, stage), drive);
-      ++s.steps;
-      if (s.steps % kMonitorSteps == 0) monitor(run, stage, progress);
-      if (sample_due(s, run.scene)) {
+      s.steps += taken;
+      const bool look = reached(s, kMonitorSteps, taken);
+      if (look) monitor(run, stage, progress);
+      if (sample_due(s, taken, run.scene)) {
         keep_grain_forces(run);
         recorder.sample(run, stage);
+      } else if (out.energy_interval > 0 && reached(s, out.energy_interval, taken))
+        recorder.energy(run, stage);
+      if (s.steps_per_cycle > 0) {
+        over = record_cycle(run, stage, recorder, folder);
+        if (s.steps % s.steps_per_cycle == 0) check_ledger(run, stage);
       }
-      if (s.steps_per_cycle > 0) over = record_cycle(run, stage, recorder, folder);
-      over = over || (s.steps % kMonitorSteps == 0 && at_rest(run, stage)) ||
-             run.world.time - s.start > stage.longest - 0.5 * s.dt;
-      if (over || snapshot_due(s, out.snapshot_interval))
+      over = over || (look && at_rest(run, stage)) ||
+             run.world.time - s.start > stage.longest - 0.5 * taken * s.dt;
+      if (over || snapshot_due(s, taken, out.snapshot_interval))
         write_snapshot(run, stage, folder, out.structure_fields, snapshots);
       if (progress.due()) progress.update(run.world.time, detail(run));
       if (stop_requested() && !over) {

@@ -39,7 +39,7 @@ void visit(A& a, StageState& s) {
   a("stage/largest_overlap", s.largest_overlap);
   a("stage/largest_step_share", s.largest_step_share);
   a("stage/work_in", s.work_in), a("stage/last_work", s.last_work);
-  a("stage/worst_closure", s.worst_closure);
+  a("stage/worst_closure", s.worst_closure), a("stage/exchange_gain", s.exchange_gain);
   a("stage/grain_force", s.grain_force);
   a("stage/pressure", s.pressure), a("stage/pressure_samples", s.pressure_samples);
 }

@@ -16,6 +16,9 @@ Run make_run(const Scene& scene, int threads) {
   Run run;
   run.scene = scene;
   run.layout = make_layout(scene);
+  run.world.exchange.schedule = coupling::schedule_named(scene.numerics.exchange);
+  run.world.exchange.grain_steps = scene.numerics.grain_steps;
+  run.world.exchange.tolerance = scene.numerics.exchange_tolerance;
   run.threads =
       threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return run;

@@ -38,6 +38,7 @@ struct StageState {
   double work_in = 0;               ///< sum of the rises of the ledger's work [J]
   double last_work = 0;             ///< its last value [J]
   double worst_closure = 0;         ///< largest |closure| since the ledger was opened [J]
+  double exchange_gain = 0;         ///< largest energy that the exchange had made since then [J]
   std::vector<double> grain_force;  ///< largest contact force per grain [N]
   std::vector<double> pressure;     ///< under the sleeper, sum over load peaks, by cell [Pa]
   int pressure_samples = 0;

@@ -63,6 +63,7 @@ std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene& scene, const
   p.gravity = {0, 0, -9.81};
   p.start_in_equilibrium = false;  // it lies on the grains
   set_time_integration(scene, p);
+  if (scene.numerics.exchange == "explicit") p.mass = fem::Mass::lumped;
   return std::make_unique<fem::ElasticBody>(std::move(p));
 }
 
