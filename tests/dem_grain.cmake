@@ -11,3 +11,8 @@ trackbed_test(grain_dilated verification trackbed_dem)
 trackbed_test(grain_sphere_union verification trackbed_dem)
 trackbed_test(sieve_size verification trackbed_dem)
 trackbed_test(sieve_rounded verification trackbed_dem)
+trackbed_test(grain_extremes hard trackbed_dem)
+trackbed_test(sieve_oracle slow trackbed_dem)
+
+add_executable(grains_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/grains_benchmark.cc)
+target_link_libraries(grains_benchmark PRIVATE trackbed_dem)

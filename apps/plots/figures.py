@@ -6,6 +6,7 @@ from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator, NullLocator, ScalarFormatter
 
 import measures
+import slices
 import style
 from read_run import Missing
 from style import number
@@ -143,6 +144,27 @@ def compaction(run):
                     f"tamping cycle: {number(table['density_kg_per_m3'][0], 4)} → "
                     f"{number(table['density_kg_per_m3'][-1], 4)} kg/m³, porosity {number(table['porosity'][0])} → "
                     f"{number(table['porosity'][-1])}.")
+
+
+def porosity(run):
+    table = run.table("porosity.csv")
+    whole, layers = table["layer"] == 0, table["layer"] > 0
+    n = measures.finite(table["porosity"], "porosity")
+    figure, axes = plt.subplots()
+    low, high = table["z_low_m"][layers] * 1e3, table["z_high_m"][layers] * 1e3
+    edges = np.append(low, high[-1])
+    axes.stairs(n[layers], edges, orientation="horizontal", color=style.BLUE, lw=2, baseline=None)
+    axes.axvline(n[whole][0], color=style.RUST, lw=1, label=f"all layers: {number(n[whole][0])}")
+    axes.set_xlabel("porosity (-)")
+    axes.set_ylabel("height above the subgrade (mm)")
+    axes.legend(loc="best")
+    return figure, (f"Porosity by layers at the end; {number(n[whole][0])} over all of them, coordination number "
+                    f"{number(table['coordination'][whole][0])}. Walls and the sleeper's base keep grains apart, so "
+                    "the outer layers are looser.")
+
+
+def sections(run):
+    return slices.draw(run.path("sections.csv"))
 
 
 def energy(run):

@@ -23,6 +23,8 @@ CURVES = [   # section, [(file, title, function)]
                            ("moment", "Bending", figures.moment)]),
     ("The bed", [("gradation", "Gradation", figures.gradation),
                  ("compaction", "Density per tamping cycle", figures.compaction),
+                 ("porosity", "Porosity by layers", figures.porosity),
+                 ("sections", "Virtual slices", figures.sections),
                  ("forces", "Force on the grains", figures.forces)]),
     ("Books and clock", [("energy", "Energy ledger", figures.energy),
                          ("history", "The run in time", figures.overview),

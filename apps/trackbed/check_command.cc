@@ -1,4 +1,6 @@
 // `trackbed check`: the plan of a scene on one page.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 
@@ -7,7 +9,9 @@
 #include "apps/trackbed/plan.h"
 #include "apps/trackbed/progress.h"
 #include "apps/trackbed/read_scene.h"
+#include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/layout.h"
+#include "dem/grain/library_report.h"
 
 namespace trackbed::apps {
 namespace {
@@ -20,6 +24,29 @@ void print_grains(const Scene& scene, const Plan& plan) {
   for (const auto& k : gradation_classes(scene))
     std::printf("            %5.1f to %5.1f mm  %5.1f %%  %7.2f kg  %6.0f grains\n", 1e3 * k.lower,
                 1e3 * k.upper, 100 * k.share, k.mass, k.grains);
+}
+
+/// Form of the library by some of its shapes: making and sizing all of a large one takes minutes.
+void print_library(const Scene& scene) {
+  constexpr int most = 200;
+  dem::LibraryParameters p = library_parameters(scene);
+  const int all = p.count;
+  const double share = std::min(1.0, double(most) / all);
+  p.count = static_cast<int>(std::ceil(share * all));
+  p.needles = static_cast<int>(std::floor(share * p.needles));
+  p.flakes = static_cast<int>(std::floor(share * p.flakes));
+  const dem::LibraryReport r = dem::library_report(dem::make_library(p));
+  std::printf(
+      "Shapes      %d from %s; %s %d: sphericity %.3f, angularity %.3f, elongation %.3f, "
+      "flatness %.3f, %.0f faces\n",
+      all, scene.grains.generator.c_str(), p.count < all ? "of" : "all", p.count, r.sphericity.mean,
+      r.angularity.mean, r.elongation.mean, r.flatness.mean, r.faces.mean);
+  std::printf("            flakiness index %.1f %%, elongation index %.1f %% of the volume",
+              r.indices.flaky, r.indices.elongated);
+  const GradationScene& g = scene.gradation;
+  if (g.needle_share > 0 || g.flaky_share > 0)
+    std::printf("; drawn %g %% flaky, %g %% needles", g.flaky_share, g.needle_share);
+  std::printf("\n");
 }
 
 void print_effects(const Plan& plan) {
@@ -57,11 +84,11 @@ int check_command(const CheckOptions& options) {
   std::printf("Load        %g to %g kN at %g Hz, %d cycles\n", 1e-3 * scene.loading.least,
               1e-3 * scene.loading.largest, scene.loading.frequency, scene.loading.cycles);
   print_grains(scene, plan);
+  print_library(scene);
   print_effects(plan);
   print_stages(plan);
-  std::printf("\nEstimates: memory %.0f MB, computing %s with %d thread%s.\n",
-              1e-6 * plan.memory, duration_text(plan.seconds).c_str(), threads,
-              threads == 1 ? "" : "s");
+  std::printf("\nEstimates: memory %.0f MB, computing %s with %d thread%s.\n", 1e-6 * plan.memory,
+              duration_text(plan.seconds).c_str(), threads, threads == 1 ? "" : "s");
   std::printf("The scene is valid; nothing was run.\n");
   return 0;
 }

@@ -79,6 +79,28 @@ void check_gradation(const Check& c) {
                    " % of the mass is less than half a grain; widen the box or join classes");
 }
 
+void check_grains(const Check& c) {
+  const auto& g = c.scene.grains;
+  if (g.axes.size() != 3) c.refuse("Grains/Ellipsoid axes", "three numbers are needed");
+  if (g.points_least > g.points_most)
+    c.refuse("Grains/Ellipsoid least corners", "at most Grains/Ellipsoid most corners");
+  if (g.least_scale > g.largest_scale)
+    c.refuse("Grains/Least scale", "at most Grains/Largest scale = " + shortest(g.largest_scale));
+  if (g.sphericity > 0 && (g.elongation > 0 || g.flatness > 0))
+    c.refuse("Grains/Sphericity", "Grains/Elongation and Flatness fix it; give one or the other");
+  const auto& d = c.scene.gradation;
+  if (d.needle_share + d.flaky_share > 100)
+    c.refuse("Gradation/Needle share", "at most 100 % together with Gradation/Flaky share");
+}
+
+void check_measures(const Check& c) {
+  const auto& m = c.scene.measures;
+  if (m.low.size() != m.high.size() || (!m.low.empty() && m.low.size() != 3))
+    c.refuse("Measures/High", "Low and High are three numbers each, or empty both");
+  for (std::size_t k = 0; k < m.low.size(); ++k)
+    if (m.low[k] >= m.high[k]) c.refuse("Measures/High", "above Measures/Low in x, y and z");
+}
+
 void check_sleeper(const Check& c) {
   const auto& s = c.scene.sleeper;
   const auto& box = c.scene.container;
@@ -161,6 +183,8 @@ void check_exchange(const Check& c) {
 
 void check_scene(const Scene& scene, const ParameterValues& values) {
   const Check check{scene, values};
+  check_grains(check);
+  check_measures(check);
   check_sleeper(check);
   check_shoulder(check);
   check_densities(check);

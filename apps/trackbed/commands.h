@@ -58,10 +58,12 @@ struct ParametersOptions {
 };
 
 struct SieveOptions {
-  std::vector<std::string> grains;  ///< OFF, OBJ, STL files
+  std::vector<std::string> grains;  ///< OFF, OBJ, STL files of solids, CSV files of clumps
   std::string method = "exact";     ///< a name, or "all"
   std::string unit = "mm";          ///< of the files' coordinates: mm, cm or m
   std::string curve;                ///< name of a standard's curve to compare with; empty = none
+  double dilation = 0;              ///< radius of a ball around every solid [unit]
+  bool hull = false;                ///< solids that are not convex are replaced by their hulls
 };
 
 struct ReportOptions {

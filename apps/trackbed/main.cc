@@ -97,9 +97,18 @@ int run_program(int argc, char** argv) {
   command->callback([&] { chosen = [&] { return parameters_command(parameters); }; });
 
   SieveOptions sieve;
-  command = app.add_subcommand("sieve",
-                               "sizes of OFF, OBJ or STL solids as CSV, in the unit of the files");
-  command->add_option("GRAINS", sieve.grains, "files, one solid each")->required();
+  command =
+      app.add_subcommand("sieve", "sizes of solids and clumps as CSV, in the unit of the files");
+  command
+      ->add_option("GRAINS", sieve.grains,
+                   "OFF, OBJ or STL files of one or more solids; CSV files of a clump, x,y,z,r")
+      ->required();
+  command
+      ->add_option("--dilation", sieve.dilation,
+                   "radius of the ball that rounds every solid, in the unit of the files [0]")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("R");
+  command->add_flag("--hull", sieve.hull, "take the convex hull of solids that are not convex");
   command->add_option("--method", sieve.method, "a sieve method's name, or all [exact]")
       ->type_name("NAME");
   command->add_option("--unit", sieve.unit, "of the files' coordinates: mm, cm or m [mm]")

@@ -29,11 +29,13 @@ bool ends_with(const std::string& text, const std::string& end) {
 /// What a run, a packing, a comparison or a report writes (DESIGN: output of a run).
 bool written_by_a_run(const std::string& name) {
   for (const char* file :
-       {"cycles.csv",      "compaction.csv", "history.csv",        "energy.csv",   "gradation.csv",
-        "grains.csv",      "timing.csv",     "scene.resolved.prm", "snapshots.h5", "snapshots.xdmf",
-        "checkpoint.h5",   "report.html",    "compare.csv",        "compare.html", "summary.csv",
-        "cost.csv",        "cost.html",      "runs.csv",           "knobs.csv",    "tolerance.csv",
-        "recommended.prm", "recommended.txt"})
+       {"cycles.csv",      "compaction.csv",  "history.csv",   "energy.csv",
+        "gradation.csv",   "grains.csv",      "timing.csv",    "scene.resolved.prm",
+        "snapshots.h5",    "snapshots.xdmf",  "checkpoint.h5", "report.html",
+        "compare.csv",     "compare.html",    "summary.csv",   "cost.csv",
+        "cost.html",       "runs.csv",        "knobs.csv",     "tolerance.csv",
+        "recommended.prm", "recommended.txt", "porosity.csv",  "sections.csv",
+        "library.csv"})
     if (name == file || name == file + std::string(".part")) return true;
   return starts_with(name, "structure_") || starts_with(name, "snapshots") ||
          ends_with(name, ".png");

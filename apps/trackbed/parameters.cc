@@ -69,6 +69,25 @@ void add_container(Section s) {
 void add_grains(Section s) {
   s.choice("Generator", "voronoi", grain_generators(), "of the library of convex grains");
   s.integer("Library size", "600", 1, 1e6, "shapes to draw from");
+  s.number("Sphericity", "0", "-", 0, 0.999,
+           "target of the library's mean (Wadell), by stretching; 0 = as generated");
+  s.number("Angularity", "0", "-", 0, 2,
+           "target of the mean angle of edges over a right one, by blunting; 0 = as generated");
+  s.number("Elongation", "0", "-", 0, 1, "target of the mean I/L; 0 = as generated");
+  s.number("Flatness", "0", "-", 0, 1, "target of the mean S/I; 0 = as generated");
+  s.number("Voronoi spacing", "0.6", "-", 0, 0.8,
+           "voronoi: least distance of seeds over the mean cell's edge; less = more uneven grains");
+  s.number("Voronoi least face", "0.05", "-", 0, 0.5,
+           "voronoi: faces below this share of the mean face are left out");
+  s.numbers("Ellipsoid axes", "1, 0.8, 0.6", "-", 1e-3, 1e3, "ellipsoid: ratio of its three axes");
+  s.integer("Ellipsoid least corners", "12", 4, 1000, "ellipsoid: corners of a grain, at least");
+  s.integer("Ellipsoid most corners", "24", 4, 1000, "ellipsoid: corners of a grain, at most");
+  s.number("Length over height", "1.6", "-", 1, 20, "jin_hull: median of L/H, log-normal");
+  s.number("Length over height deviation", "0.2", "-", 0, 2,
+           "jin_hull: standard deviation of ln(L/H)");
+  s.integer("Divisions", "2", 1, 20, "jin_hull: parts of a box edge, N_d of Jin 2017");
+  s.number("Least scale", "0.8", "-", 0.05, 10, "jin_hull: least factor of a node's radius, S_l");
+  s.number("Largest scale", "1.2", "-", 0.05, 10, "jin_hull: largest factor of it, S_u");
   s.integer("Seed", "1", 0, 9.2e18, "of every random choice: the same seed gives the same packing");
   s.number("Density", "2600", "kg/m3", 1, 2e4, "of the rock (Shao 2017, Table 3)");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on grain (Shao 2017, Table 3)");
@@ -85,6 +104,11 @@ void add_gradation(Section s) {
            "opening that the largest grains pass, where the curve ends below 100 %");
   s.number("Tolerance", "0.01", "-", 1e-6, 1,
            "largest deviation of a class from the curve, as a share of the total mass");
+  s.number("Needle share", "0", "%", 0, 100,
+           "of the mass, in every class: longer than 1.8 sieve sizes; with Flaky share 0 too: as "
+           "it comes");
+  s.number("Flaky share", "0", "%", 0, 100,
+           "of the mass, in every class: thinner than 0.6 sieve sizes");
 }
 
 void add_contact(Section s) {
@@ -182,6 +206,19 @@ void add_numerics(Section s) {
            "relative change of the start to show the noise floor; 0 = off");
 }
 
+void add_measures(Section s) {
+  s.numbers(
+      "Low", "", "m", -100, 100,
+      "x, y, z of the region where porosity is measured; empty: the container (with shoulders "
+      "the sleeper's length) from the subgrade to the bed's top");
+  s.numbers("High", "", "m", -100, 100, "the opposite corner; empty: see Low");
+  s.number("Radius", "0", "m", 0, 100,
+           "of an upright cylinder about the region's middle instead of the box; 0 = the box");
+  s.integer("Layers", "10", 1, 1000, "of the porosity profile, porosity.csv");
+  s.integer("Horizontal cuts", "2", 0, 100, "virtual slices through the region, sections.csv");
+  s.integer("Vertical cuts", "1", 0, 100, "across the track, sections.csv");
+}
+
 void add_output(Section s) {
   s.integer("Samples per cycle", "100", 4, 1e6, "lines of history.csv in a load cycle");
   s.number("Snapshot interval", "0.05", "s", 0, 1e6, "0 = at the stages' ends only");
@@ -220,6 +257,7 @@ std::vector<Parameter> scene_parameters() {
   table.insert(table.end(), models.begin(), models.end());
   add_loading({table, "Loading"});
   add_numerics({table, "Numerics"});
+  add_measures({table, "Measures"});
   add_output({table, "Output"});
   return table;
 }

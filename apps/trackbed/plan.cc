@@ -6,6 +6,7 @@
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/grain_estimate.h"
+#include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/stage.h"
@@ -101,10 +102,8 @@ std::vector<Effect> effects_of(const Scene& s, const Plan& plan) {
 
 /// Some grains as small as the smallest class has them: they set the time step.
 coupling::World sample_of_smallest(const Scene& scene, double size) {
-  dem::LibraryParameters parameters;
-  parameters.generator = scene.grains.generator;
-  parameters.count = 24;
-  parameters.seed = scene.grains.seed;
+  dem::LibraryParameters parameters = library_parameters(scene);
+  parameters.count = std::max(24, parameters.needles + parameters.flakes);
   std::vector<dem::GrainShape> shapes;
   for (const auto& shape : dem::make_library(parameters))
     shapes.push_back(dem::scaled(shape, size));

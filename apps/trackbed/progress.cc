@@ -105,13 +105,39 @@ void Progress::draw(double time, const std::string& detail, bool last) {
   else
     std::snprintf(tail, sizeof tail, " %3.0f %%  t = %.4f of %.4g s", 100 * share, time, end_);
 
-  std::string line = head;
+  std::string text = tail;
+  if (!detail.empty()) text += ", " + detail;
+  show(head, share, text, last);
+}
+
+void Progress::portion(const std::string& work, double share) {
+  if (!active_ || stage_ != work) {
+    stage_ = work;
+    begun_ = shown_ = Clock::now();
+    active_ = true;
+  }
+  const double elapsed = seconds_since(begun_);
+  const bool last = share >= 1;
+  active_ = !last;
+  if (elapsed < 1.5 ||
+      (!last && seconds_since(shown_) < (terminal_ ? terminal_interval : log_interval)))
+    return;
+  shown_ = Clock::now();
+  char text[80];
+  if (last)
+    std::snprintf(text, sizeof text, " took %s", duration_text(elapsed).c_str());
+  else
+    std::snprintf(text, sizeof text, " %3.0f %%, %s left", 100 * share,
+                  duration_text(elapsed * (1 / share - 1)).c_str());
+  show(work, share, text, last);
+}
+
+void Progress::show(std::string line, double share, const std::string& tail, bool last) {
   if (terminal_ && !last) {
     const int full = static_cast<int>(share * bar_width);
     line += "[" + std::string(full, '#') + std::string(bar_width - full, '.') + "]";
   }
   line += tail;
-  if (!detail.empty()) line += ", " + detail;
 
   if (!terminal_) {
     std::fprintf(stderr, "%s\n", line.c_str());

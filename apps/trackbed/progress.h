@@ -29,6 +29,10 @@ class Progress {
   /// The stage's last line stays on the screen.
   void finish(double time, const std::string& detail);
 
+  /// Work without simulated time, such as sizing a library: the share that is done, 0 … 1. Shown
+  /// once it has taken a second or two.
+  void portion(const std::string& work, double share);
+
   /// A line of its own, above the bar.
   void note(const std::string& line);
 
@@ -36,6 +40,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void draw(double time, const std::string& detail, bool last);
   void clear();
+  void show(std::string line, double share, const std::string& tail, bool last);
 
   bool terminal_;
   bool drawn_ = false;  ///< a bar stands on the current line

@@ -32,6 +32,20 @@ GrainScene grains(const Values& v) {
   GrainScene g{};
   g.generator = v.text("Grains/Generator");
   g.library = static_cast<int>(v.integer("Grains/Library size"));
+  g.elongation = v.number("Grains/Elongation");
+  g.flatness = v.number("Grains/Flatness");
+  g.sphericity = v.number("Grains/Sphericity");
+  g.angularity = v.number("Grains/Angularity");
+  g.spacing = v.number("Grains/Voronoi spacing");
+  g.least_face = v.number("Grains/Voronoi least face");
+  g.axes = v.numbers("Grains/Ellipsoid axes");
+  g.points_least = static_cast<int>(v.integer("Grains/Ellipsoid least corners"));
+  g.points_most = static_cast<int>(v.integer("Grains/Ellipsoid most corners"));
+  g.length_over_height = v.number("Grains/Length over height");
+  g.length_over_height_deviation = v.number("Grains/Length over height deviation");
+  g.divisions = static_cast<int>(v.integer("Grains/Divisions"));
+  g.least_scale = v.number("Grains/Least scale");
+  g.largest_scale = v.number("Grains/Largest scale");
   g.seed = static_cast<std::uint64_t>(v.integer("Grains/Seed"));
   g.density = v.number("Grains/Density");
   g.friction = v.number("Grains/Friction");
@@ -46,6 +60,8 @@ GradationScene gradation(const Values& v) {
   g.passing = v.numbers("Gradation/Passing");
   g.top_sieve = v.number("Gradation/Top sieve");
   g.tolerance = v.number("Gradation/Tolerance");
+  g.needle_share = v.number("Gradation/Needle share");
+  g.flaky_share = v.number("Gradation/Flaky share");
   return g;
 }
 
@@ -139,6 +155,17 @@ NumericsScene numerics(const Values& v) {
   return n;
 }
 
+MeasureScene measures(const Values& v) {
+  MeasureScene m{};
+  m.low = v.numbers("Measures/Low");
+  m.high = v.numbers("Measures/High");
+  m.radius = v.number("Measures/Radius");
+  m.layers = static_cast<int>(v.integer("Measures/Layers"));
+  m.horizontal_cuts = static_cast<int>(v.integer("Measures/Horizontal cuts"));
+  m.vertical_cuts = static_cast<int>(v.integer("Measures/Vertical cuts"));
+  return m;
+}
+
 OutputScene output(const Values& v) {
   OutputScene o{};
   o.samples_per_cycle = static_cast<int>(v.integer("Output/Samples per cycle"));
@@ -182,6 +209,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.subgrade = subgrade(values);
   scene.loading = loading(values);
   scene.numerics = numerics(values);
+  scene.measures = measures(values);
   scene.output = output(values);
   check_scene(scene, values);
   check_structures(scene, values);

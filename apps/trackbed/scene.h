@@ -25,8 +25,16 @@ struct ContainerScene {
 };
 
 struct GrainScene {
-  std::string generator;  ///< "voronoi" | "ellipsoid"
+  std::string generator;  ///< one of dem::generator_names()
   int library;            ///< shapes in the library
+  double elongation, flatness, sphericity,
+      angularity;                 ///< targets of the library's means; 0 = none
+  double spacing, least_face;     ///< voronoi
+  std::vector<double> axes;       ///< ellipsoid, full axes
+  int points_least, points_most;  ///< ellipsoid, corners of a grain
+  double length_over_height, length_over_height_deviation;  ///< jin_hull
+  int divisions;                                            ///< jin_hull, N_d
+  double least_scale, largest_scale;                        ///< jin_hull, S_l and S_u
   std::uint64_t seed;
   double density;            ///< [kg/m3]
   double friction;           ///< grain on grain
@@ -38,6 +46,7 @@ struct GradationScene {
   std::vector<double> sieves, passing;  ///< of a table: [m], [%]
   double top_sieve;  ///< size of the largest grain when the curve ends below 100 % [m]
   double tolerance;  ///< per class, share of total mass
+  double needle_share, flaky_share;  ///< of the mass [%]; both 0 = as the library comes
 };
 
 struct ContactScene {
@@ -105,6 +114,14 @@ struct NumericsScene {
   double mirror_noise;        ///< relative size of a last-bit change of the start (noise floor)
 };
 
+/// Where porosity is measured and the bed is cut for pictures.
+struct MeasureScene {
+  std::vector<double> low, high;  ///< corners of the region [m]; empty = see the parameter
+  double radius;                  ///< > 0: an upright cylinder about the region's middle [m]
+  int layers;                     ///< of the porosity profile
+  int horizontal_cuts, vertical_cuts;
+};
+
 struct OutputScene {
   int samples_per_cycle;       ///< lines of history.csv per load cycle
   double snapshot_interval;    ///< [s]; 0 = at stage ends only
@@ -128,6 +145,7 @@ struct Scene {
   SubgradeScene subgrade;
   LoadingScene loading;
   NumericsScene numerics;
+  MeasureScene measures;
   OutputScene output;
 };
 

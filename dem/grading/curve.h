@@ -11,6 +11,7 @@ struct SieveCurve {
   std::string name = "user";
   std::string source;           ///< where the numbers come from
   bool checked = true;          ///< false: quoted from memory of the standard, not from its text
+  std::string compared;         ///< of an unchecked one: which limits agree with a second source
   std::vector<double> sieve;    ///< [m]
   std::vector<double> passing;  ///< target [%]; of a standard: the middle of its band
   std::vector<double> band_min, band_max;  ///< [%]; empty when there is no band

@@ -25,7 +25,8 @@ std::vector<Polyhedron> generate(const LibraryParameters& p) {
   if (p.generator == "voronoi") return voronoi_grains({p.count, p.seed, p.spacing, p.least_face});
   if (p.generator == "ellipsoid") {
     EllipsoidParameters e;
-    e.count = p.count, e.seed = p.seed;
+    e.count = p.count, e.seed = p.seed, e.axes = p.axes;
+    e.points_least = p.points_least, e.points_most = p.points_most;
     return ellipsoid_grains(e);
   }
   if (p.generator == "jin_hull") {

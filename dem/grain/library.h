@@ -17,6 +17,9 @@ struct LibraryParameters {
   std::uint64_t seed = 1;
   double spacing = 0.6;      ///< voronoi: see VoronoiParameters [-]
   double least_face = 0.05;  ///< voronoi: see VoronoiParameters [-]
+  /// ellipsoid: see EllipsoidParameters.
+  Vec3 axes = Vec3(1, 0.8, 0.6);
+  int points_least = 12, points_most = 24;
   /// jin_hull: see JinStonesParameters.
   double length_over_height = 1.6, length_over_height_deviation = 0.2;  ///< [-]
   int divisions = 2;                                                    ///< N_d [-]

@@ -58,9 +58,9 @@ std::string to_csv(const LibraryReport& r) {
     std::snprintf(line, sizeof line, "%s,%.6g,,,\n", name, value);
     text += line;
   };
-  percent("flaky_percent", r.indices.flaky);
-  percent("elongated_percent", r.indices.elongated);
-  percent("slender_percent", r.indices.slender);
+  percent("flakiness_index_percent", r.indices.flaky);
+  percent("elongation_index_percent", r.indices.elongated);
+  percent("shape_index_percent", r.indices.slender);
   return text;
 }
 

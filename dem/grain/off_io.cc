@@ -122,11 +122,40 @@ RawMesh parse(const std::string& path) {
   throw InputError(path + ": unknown kind of file; .off, .obj and .stl are read");
 }
 
+// The pieces that no face joins, each with its own vertices.
+std::vector<RawMesh> pieces_of(const RawMesh& mesh) {
+  std::vector<int> root(mesh.vertices.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& face : mesh.faces)
+    for (int v : face) root[find(v)] = find(face[0]);
+  std::map<int, int> piece_of;  // root to piece
+  std::vector<int> own(mesh.vertices.size(), -1);
+  std::vector<RawMesh> pieces;
+  for (const auto& face : mesh.faces) {
+    const auto [at, first] = piece_of.emplace(find(face[0]), static_cast<int>(pieces.size()));
+    if (first) pieces.emplace_back();
+    RawMesh& piece = pieces[at->second];
+    piece.single_precision = mesh.single_precision;
+    piece.faces.push_back(face);
+    for (int& v : piece.faces.back()) {
+      if (own[v] < 0) {
+        own[v] = static_cast<int>(piece.vertices.size());
+        piece.vertices.push_back(mesh.vertices[v]);
+      }
+      v = own[v];
+    }
+  }
+  return pieces;
+}
+
 // A closed solid of positive volume, in metres; `tolerance` relative to its extent.
-RawMesh read_closed(const std::string& path, double unit, double& tolerance) {
+RawMesh closed(const std::string& path, RawMesh mesh, double unit, double& tolerance) {
   if (!(unit > 0) || !std::isfinite(unit))
     throw InputError("solid: the unit of length must be positive");
-  RawMesh mesh = parse(path);
   if (mesh.vertices.empty() || mesh.faces.empty()) throw InputError(path + ": holds no faces");
   tolerance = mesh.single_precision ? 3e-7 : 1e-9;
   for (Vec3& v : mesh.vertices) v *= unit;
@@ -144,8 +173,25 @@ RawMesh read_closed(const std::string& path, double unit, double& tolerance) {
 }  // namespace
 
 Polyhedron read_solid(const std::string& path, const SolidOptions& options) {
+  return check_solid(path, parse(path), options);
+}
+
+std::vector<Polyhedron> read_solids(const std::string& path, const SolidOptions& options) {
+  const RawMesh mesh = parse(path);
+  if (mesh.vertices.empty() || mesh.faces.empty()) throw InputError(path + ": holds no faces");
+  const double tolerance = mesh.single_precision ? 3e-7 : 1e-9;
+  const auto pieces = pieces_of(welded(mesh, tolerance * extent(mesh.vertices)));
+  std::vector<Polyhedron> solids;
+  for (size_t k = 0; k < pieces.size(); ++k)
+    solids.push_back(check_solid(
+        pieces.size() > 1 ? path + ": solid " + std::to_string(k + 1) : path, pieces[k], options));
+  if (solids.empty()) throw InputError(path + ": the solid has no volume");
+  return solids;
+}
+
+Polyhedron check_solid(const std::string& path, const RawMesh& raw, const SolidOptions& options) {
   double tolerance = 0;
-  const RawMesh mesh = read_closed(path, options.unit, tolerance);
+  const RawMesh mesh = closed(path, raw, options.unit, tolerance);
   const double size = extent(mesh.vertices);
   const double volume = signed_volume({mesh.vertices, mesh.faces});
   std::vector<Vec3> corners;  // a vertex that no face uses is no part of the solid
@@ -173,7 +219,7 @@ Polyhedron read_solid(const std::string& path, const SolidOptions& options) {
 
 TriangleSolid read_triangle_solid(const std::string& path, double unit) {
   double tolerance = 0;
-  const RawMesh mesh = read_closed(path, unit, tolerance);
+  const RawMesh mesh = closed(path, parse(path), unit, tolerance);
   if (self_intersects(mesh)) throw InputError(path + ": the surface intersects itself");
   TriangleSolid solid{mesh.vertices, {}};
   for (const auto& face : mesh.faces)

@@ -1,7 +1,9 @@
-// Solids from files: OFF, Wavefront OBJ, STL (ASCII and binary), one closed solid a file.
+// Closed solids from files: OFF, Wavefront OBJ, STL (ASCII and binary).
 #pragma once
 #include <string>
+#include <vector>
 
+#include "dem/grain/mesh_parse.h"
 #include "dem/grain/polyhedron.h"
 #include "dem/grain/triangle_solid.h"
 
@@ -19,6 +21,13 @@ struct SolidOptions {
 /// each other, inside-out, no volume, self-intersecting, several solids, not convex (unless
 /// `hull`).
 Polyhedron read_solid(const std::string& path, const SolidOptions& = {});
+
+/// All solids of a file, in the order of their first faces; what no face joins is a solid of its
+/// own. Throws as read_solid, "path: solid n: problem" where there are several.
+std::vector<Polyhedron> read_solids(const std::string& path, const SolidOptions& = {});
+
+/// The same of polygons that were read already; `name` heads the messages.
+Polyhedron check_solid(const std::string& name, const RawMesh&, const SolidOptions& = {});
 
 /// The solid in a file as it is, convex or not, its faces cut into triangles from their first
 /// corner (faces must be convex). Throws as read_solid.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # tests/benchmarks/run.sh [SCENE.prm]
-# Builds what is out of date and prints every benchmark: the contact kernel, grain motion, surfaces,
+# Builds what is out of date and prints every benchmark: the contact kernel, making grains, grain motion, surfaces,
 # a structure's step, and the settled bed of a scene (the ballast box if none is named).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -9,6 +9,7 @@ install_packages
 configure
 build_targets
 printf '\n# Contact kernel\n' && "$build/tests/contact_benchmark"
+printf '\n# Making and sizing grains\n' && "$build/tests/grains_benchmark"
 printf '\n# Grains in motion\n' && "$build/tests/motion_benchmark"
 printf '\n# A structure'\''s step\n' && "$build/tests/fem_step_benchmark"
 printf '\n# Grains on a deforming surface\n' && "$build/tests/surface_benchmark"

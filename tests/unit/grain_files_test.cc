@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "dem/grain/clump_io.h"
 #include "dem/grain/off_io.h"
 #include "tests/unit/grain_solids.h"
 
@@ -180,6 +181,53 @@ TEST_F(Files, UnwritablePathIsNamed) {
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find(path), std::string::npos);
   }
+}
+
+TEST_F(Files, SeveralSolidsInOneFile) {
+  // Two tetrahedra, one turned on: OFF by vertices of their own, STL as a soup of triangles.
+  const std::string off =
+      file("two.off",
+           "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 0 0\n7 0 0\n5 2 0\n5 0 2\n"
+           "3 0 2 1\n3 4 6 5\n3 0 1 3\n3 4 5 7\n3 1 2 3\n3 5 6 7\n3 2 0 3\n3 6 4 7\n");
+  const std::vector<Polyhedron> solids = read_solids(off, {0.001, false});
+  ASSERT_EQ(solids.size(), 2u);
+  EXPECT_NEAR(mass_properties(solids[0]).volume, 1e-9 / 6, 1e-21);
+  EXPECT_NEAR(mass_properties(solids[1]).volume, 8e-9 / 6, 1e-20);
+  EXPECT_THROW(read_solid(off), InputError);
+  std::string stl = "solid a\n";
+  const Vec3 corner[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (double shift : {0.0, 3.0})
+    for (const auto& f : {Eigen::Vector3i(0, 2, 1), Eigen::Vector3i(0, 1, 3),
+                          Eigen::Vector3i(1, 2, 3), Eigen::Vector3i(2, 0, 3)}) {
+      stl += "facet normal 0 0 0\nouter loop\n";
+      for (int k = 0; k < 3; ++k)
+        stl += "vertex " + std::to_string(corner[f[k]].x() + shift) + " " +
+               std::to_string(corner[f[k]].y()) + " " + std::to_string(corner[f[k]].z()) + "\n";
+      stl += "endloop\nendfacet\n";
+    }
+  EXPECT_EQ(read_solids(file("two.stl", stl + "endsolid a\n")).size(), 2u);
+}
+
+TEST_F(Files, ClumpsFromCsv) {
+  const auto spheres =
+      read_clump(file("c.csv", "x,y,z,r\n1,2,3,4\n\n -1 , 0.5 ,0, 2e-1\r\n"), 1e-3);
+  ASSERT_EQ(spheres.size(), 2u);
+  EXPECT_NEAR(spheres[0].radius, 4e-3, 1e-18);
+  EXPECT_NEAR(spheres[1].centre.y(), 0.5e-3, 1e-18);
+  const auto bad = [&](const std::string& text, const std::string& part) {
+    const std::string path = file("bad.csv", text);
+    try {
+      read_clump(path);
+      ADD_FAILURE() << text;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(path + ": " + part), std::string::npos) << e.what();
+    }
+  };
+  bad("1,2,3\n", "line 1: a sphere is four numbers");
+  bad("1,2,3,4\n1,2,x,4\n", "line 2: 'x' is not a number");
+  bad("nan,2,3,4\n", "line 1: 'nan' is not a finite number");
+  bad("1,2,3,0\n", "line 1: the radius must be positive");
+  bad("x,y,z,r\n", "holds no sphere");
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ TEST(LibraryReport, OfBoxes) {
   EXPECT_NEAR(r.indices.elongated, 100 * 2 / 3., 1e-9);
   const std::string csv = to_csv(r);
   EXPECT_EQ(csv.substr(0, csv.find('\n')), "index,mean,deviation,least,largest");
-  EXPECT_NE(csv.find("elongated_percent,66.6667,,,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("elongation_index_percent,66.6667,,,"), std::string::npos) << csv;
 }
 
 TEST(ClumpLibrary, ClumpsOfSieveSizeOne) {

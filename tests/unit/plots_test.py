@@ -28,6 +28,7 @@ import picture  # noqa: E402
 import raster  # noqa: E402
 import read_run  # noqa: E402
 import report  # noqa: E402
+import slices  # noqa: E402
 import style  # noqa: E402
 import vtu  # noqa: E402
 
@@ -147,6 +148,14 @@ def make_run(folder, grains=70, elastic=True, seed=1, nudge=0.0, cycles=12):
               zip(n, 2.0 + 0.1 * n, [3e3] * cycles, [80e3] * cycles, u_min, u_max, u_min - u_min[0], k_up, k_down))
     tamp = np.arange(1, 11)
     density = 1400 + 120 * (1 - np.exp(-tamp / 3.5))
+    write_csv(to("porosity.csv"), ["layer", "z_low_m", "z_high_m", "porosity", "void_ratio", "density_kg_per_m3",
+                                   "grains", "coordination"],
+              [[0, 0, 0.2, 0.4, 2 / 3, 1560, 100, 5], [1, 0, 0.1, 0.45, 0.82, 1430, 50, 4.5],
+               [2, 0.1, 0.2, 0.35, 0.54, 1690, 50, 5.5]])
+    write_csv(to("sections.csv"), ["axis", "position_m", "piece", "grain", "a_m", "b_m"],
+              [["z", 0.1, 0, 7, 0, 0], ["z", 0.1, 0, 7, 0.1, 0], ["z", 0.1, 0, 7, 0, 0.1],
+               ["z", 0.1, 1, 8, 0.2, 0], ["z", 0.1, 1, 8, 0.3, 0], ["z", 0.1, 1, 8, 0.2, 0.1],
+               ["y", 0.0, 2, 7, 0, 0.1], ["y", 0.0, 2, 7, 0.1, 0.1], ["y", 0.0, 2, 7, 0, 0.2]])
     write_csv(to("compaction.csv"), ["cycle", "time_s", "height_m", "density_kg_per_m3", "porosity", "void_ratio"],
               [(c, 1 + 0.1 * c, 0.33 * 1400 / d, d, 1 - d / 2600, 2600 / d - 1) for c, d in zip(tamp, density)])
     rows = []
@@ -506,6 +515,13 @@ class Measures(Folder):
         self.assertEqual(measures.deflection_range(read_run.Run(folder)), 0.0)
 
 
+class Slices(Folder):
+    def test_pieces_go_to_their_cut(self):
+        found = slices.cuts(os.path.join(self.whole, "sections.csv"))
+        self.assertEqual([(axis, at, grains) for axis, at, _, grains in found], [("z", 0.1, [7, 8]), ("y", 0.0, [7])])
+        np.testing.assert_allclose(found[0][2][1], [[200, 0], [300, 0], [200, 100]])   # mm
+
+
 class Report(Folder):
     def page(self, folder, pictures=False):
         path = report.build(folder, with_pictures=pictures, width=160)
@@ -517,10 +533,10 @@ class Report(Folder):
         text = self.page(folder, pictures=True)
         self.assertNotIn("is not shown", text)
         for name in ("bed", "chains", "structures", "settlement", "loops", "stiffness", "gradation", "compaction",
-                     "energy", "timing", "pressure", "moment", "history", "forces"):
+                     "energy", "timing", "pressure", "moment", "history", "forces", "porosity", "sections"):
             self.assertTrue(os.path.exists(os.path.join(folder, name + ".png")), name)
         self.assertIn("not a track's life".replace("'", "&#x27;"), text)
-        self.assertEqual(text.count("<img"), 14)
+        self.assertEqual(text.count("<img"), 16)
         for resource in ("http://", "https://", "src=\"/", "<script", "<link"):
             self.assertNotIn(resource, text)
 

@@ -1,17 +1,42 @@
 #include "apps/trackbed/simulation/grains.h"
 
-#include "dem/grain/library.h"
+#include <algorithm>
+#include <cmath>
 
 namespace trackbed::apps {
 
+namespace {
+
+// Enough needles or flakes to draw a share [%] from without dealing the same few again and again.
+int special_shapes(double share, int library) {
+  return share > 0 ? static_cast<int>(std::ceil(library * std::max(0.05, 0.01 * share) / 2)) : 0;
+}
+
+}  // namespace
+
+dem::LibraryParameters library_parameters(const Scene& s) {
+  const GrainScene& g = s.grains;
+  dem::LibraryParameters p;
+  p.generator = g.generator;
+  p.count = g.library;
+  p.seed = g.seed;
+  p.method = dem::parse_sieve_method(g.sieve_method);
+  p.elongation = g.elongation, p.flatness = g.flatness;
+  p.sphericity = g.sphericity, p.angularity = g.angularity;
+  p.spacing = g.spacing, p.least_face = g.least_face;
+  p.axes = dem::Vec3(g.axes[0], g.axes[1], g.axes[2]);
+  p.points_least = g.points_least, p.points_most = g.points_most;
+  p.length_over_height = g.length_over_height;
+  p.length_over_height_deviation = g.length_over_height_deviation;
+  p.divisions = g.divisions, p.least_scale = g.least_scale, p.largest_scale = g.largest_scale;
+  p.needles = special_shapes(s.gradation.needle_share, p.count);
+  p.flakes = special_shapes(s.gradation.flaky_share, p.count);
+  return p;
+}
+
 std::vector<dem::GrainShape> make_grain_library(const Scene& s,
                                                 const std::function<void(double)>& progress) {
-  dem::LibraryParameters p;
-  p.generator = s.grains.generator;
-  p.count = s.grains.library;
-  p.seed = s.grains.seed;
-  p.method = dem::parse_sieve_method(s.grains.sieve_method);
-  return dem::make_library(p, progress);
+  return dem::make_library(library_parameters(s), progress);
 }
 
 dem::SieveCurve gradation_curve(const Scene& s) {
@@ -30,6 +55,7 @@ std::vector<dem::GrainShape> draw_grains(const Scene& s,
   p.volume = mass / s.grains.density;
   p.seed = s.grains.seed * 1000003 + stream;
   p.tolerance = 100 * s.gradation.tolerance;
+  p.needle_share = s.gradation.needle_share, p.flaky_share = s.gradation.flaky_share;
   const dem::GradationDraw draw = dem::draw_gradation(gradation_curve(s), library, p);
   std::vector<dem::GrainShape> grains;
   grains.reserve(draw.grains.size());

@@ -7,9 +7,12 @@
 #include "apps/trackbed/scene.h"
 #include "dem/grading/curve.h"
 #include "dem/grading/draw.h"
-#include "dem/grain/polyhedron.h"
+#include "dem/grain/library.h"
 
 namespace trackbed::apps {
+
+/// What the scene asks of its library of shapes.
+dem::LibraryParameters library_parameters(const Scene&);
 
 /// Makes and sizes the library; `progress` gets the share done.
 std::vector<dem::GrainShape> make_grain_library(const Scene&,

@@ -6,6 +6,7 @@
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/grains.h"
+#include "apps/trackbed/simulation/measures.h"
 
 namespace trackbed::apps {
 namespace {
@@ -94,6 +95,7 @@ void write_summary(const Run& run, const std::string& file, double wall) {
 
 void write_results(const Run& run, const std::string& folder, double wall) {
   write_gradation(run, folder + "/gradation.csv");
+  write_measures(run, folder);
   write_grains(run, folder + "/grains.csv");
   write_timing(run, folder + "/timing.csv", wall);
   write_summary(run, folder + "/summary.csv", wall);

@@ -37,6 +37,7 @@ Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& 
   write_aside_then_rename(resolved, scene.resolved);
 
   Run run = make_run(scene, options.threads);
+  run.library_progress = [&](double share) { progress.portion("grain library ", share); };
   const std::vector<Stage> packing = packing_stages(scene);
   const int packed = static_cast<int>(packing.size());
   RunRecords records;

@@ -52,6 +52,7 @@ struct Run {
   Actors actors;
   StageState stage;
   std::vector<dem::GrainShape> library;  ///< made when first needed
+  std::function<void(double)> library_progress;  ///< is told the share of it that is done
 };
 
 struct Stage {

@@ -10,7 +10,7 @@ namespace trackbed::apps {
 namespace {
 
 const std::vector<dem::GrainShape>& library(Run& run) {
-  if (run.library.empty()) run.library = make_grain_library(run.scene, {});
+  if (run.library.empty()) run.library = make_grain_library(run.scene, run.library_progress);
   return run.library;
 }
 
