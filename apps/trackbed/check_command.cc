@@ -86,6 +86,7 @@ int check_command(const CheckOptions& options) {
   print_grains(scene, plan);
   print_library(scene);
   print_effects(plan);
+  for (const auto& why : scene.decisions) std::printf("Decided     %s\n", why.c_str());
   print_stages(plan);
   std::printf("\nEstimates: memory %.0f MB, computing %s with %d thread%s.\n", 1e-6 * plan.memory,
               duration_text(plan.seconds).c_str(), threads, threads == 1 ? "" : "s");

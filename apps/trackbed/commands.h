@@ -46,6 +46,7 @@ struct CostOptions {
   std::vector<std::string> knobs;       ///< names; empty = all that matter
   std::vector<std::string> pairs;       ///< "a:b": grids of two knobs
   std::vector<std::string> tolerances;  ///< "settlement=5%"
+  bool effects = false;                 ///< each effect off and on, instead of knobs
   int seeds = 3;
   int threads = 0;  ///< runs at once, one thread each; 0 = all cores
   bool dry_run = false;

@@ -151,6 +151,9 @@ int run_program(int argc, char** argv) {
   command->add_option("--tolerance", cost.tolerances, "recommend the cheapest scene within it")
       ->delimiter(',')
       ->type_name("QUANTITY=5%");
+  command
+      ->add_flag("--effects", cost.effects, "instead of knobs: what each effect costs and changes")
+      ->excludes("--knobs");
   command->add_option("--seeds", cost.seeds, "packings, each of another seed [3]")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");

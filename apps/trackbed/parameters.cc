@@ -145,8 +145,9 @@ void add_packing(Section s) {
 }
 
 void add_sleeper(Section s) {
-  s.choice("Model", "elastic", {"rigid", "elastic"},
-           "six equations of a rigid body, or an FE body");
+  s.choice("Model", "elastic", {"rigid", "elastic", "auto"},
+           "six equations of a rigid body, or an FE body; auto: FE where a beam of this length "
+           "bends on a stiff bed");
   s.number("Length", "0.26", "m", 1e-3, 20, "in x, across the track");
   s.number("Width", "0.28", "m", 1e-3, 5, "in y, along the track");
   s.number("Height", "0.2", "m", 1e-3, 2, "in z");

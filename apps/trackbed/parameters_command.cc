@@ -3,6 +3,7 @@
 
 #include "apps/trackbed/choices.h"
 #include "apps/trackbed/commands.h"
+#include "apps/trackbed/effects.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "base/error.h"
@@ -50,7 +51,7 @@ int parameters_command(const ParametersOptions& options) {
   const auto table = scene_parameters();
   std::string text;
   if (options.format == "markdown")
-    text = markdown(table);
+    text = markdown(table) + effects_markdown();
   else if (options.format == "prm" || options.format == "json")
     text = print_defaults(with_words_of_sections(table),
                           options.format == "json" ? ParameterFormat::json : ParameterFormat::prm);

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/trackbed/csv.h"
+#include "apps/trackbed/effects.h"
 #include "apps/trackbed/grain_estimate.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/layout.h"
@@ -47,57 +47,6 @@ StructureCost measure(fem::Structure& structure, double dt) {
     cost.seconds = std::min(cost.seconds, taken.count());
   }
   return cost;
-}
-
-std::string whole(double value) { return shortest(std::round(value)); }
-
-std::vector<Effect> effects_of(const Scene& s, const Plan& plan) {
-  std::vector<Effect> effects;
-  const auto text_of = [](const StructureCost& c) {
-    return whole(c.unknowns) + " unknowns, each step " + (c.solves ? "one solve, " : "no solve, ") +
-           shortest(std::ceil(1e5 * c.seconds) / 100) + " ms";
-  };
-  effects.push_back(
-      {"elastic sleeper", plan.sleeper.unknowns > 0,
-       plan.sleeper.unknowns > 0 ? text_of(plan.sleeper) : "Sleeper/Model = elastic"});
-  effects.push_back({"under-sleeper pad",
-                     s.sleeper.model == "elastic" && s.sleeper.pad_thickness > 0,
-                     s.sleeper.model == "elastic" && s.sleeper.pad_thickness > 0
-                         ? "elements of a second material"
-                         : "Sleeper/Pad thickness with an elastic sleeper"});
-  effects.push_back(
-      {"elastic subgrade", plan.subgrade.unknowns > 0,
-       plan.subgrade.unknowns > 0 ? text_of(plan.subgrade) : "Subgrade/Model other than rigid"});
-  effects.push_back(
-      {"periodic along track", s.container.periodic,
-       s.container.periodic ? "images of grains at the seam" : "Container/Periodic along track"});
-  effects.push_back({"half by symmetry", s.container.half,
-                     s.container.half ? "saves half of the grains" : "Container/Half by symmetry"});
-  effects.push_back({"shoulders", s.container.shoulder_width > 0,
-                     s.container.shoulder_width > 0 ? "grains beyond the sleeper's ends"
-                                                    : "Container/Shoulder width"});
-  effects.push_back({"local damping while packing", s.contact.packing_damping > 0,
-                     s.contact.packing_damping > 0 ? "one product per grain and step"
-                                                   : "Contact/Packing damping"});
-  effects.push_back({"local damping while loading", s.contact.damping > 0,
-                     s.contact.damping > 0 ? "one product per grain and step; dissipates"
-                                           : "Contact/Local damping"});
-  effects.push_back({"tamping", s.packing.plate_cycles > 0,
-                     s.packing.plate_cycles > 0
-                         ? "at most " + std::to_string(s.packing.plate_cycles) + " cycles"
-                         : "Packing/Plate cycles"});
-  const NumericsScene& n = s.numerics;
-  effects.push_back(
-      {"exchange other than predicted", n.exchange != "predicted",
-       n.exchange == "predicted" ? "Numerics/Exchange"
-       : n.exchange == "several_steps"
-           ? "structures step once in " + std::to_string(n.grain_steps) + " grain steps"
-       : n.exchange == "iterated" ? "two or three structure steps and surface "
-                                    "evaluations a step"
-                                  : n.exchange});
-  effects.push_back({"last-bit noise of the start", s.numerics.mirror_noise > 0,
-                     s.numerics.mirror_noise > 0 ? "nothing" : "Numerics/Mirror noise"});
-  return effects;
 }
 
 /// Some grains as small as the smallest class has them: they set the time step.

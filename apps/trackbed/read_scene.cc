@@ -5,6 +5,7 @@
 #include "apps/trackbed/check_scene.h"
 #include "apps/trackbed/check_structures.h"
 #include "apps/trackbed/choices.h"
+#include "apps/trackbed/decide.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/scene_text.h"
@@ -211,6 +212,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.numerics = numerics(values);
   scene.measures = measures(values);
   scene.output = output(values);
+  decide(scene);
   check_scene(scene, values);
   check_structures(scene, values);
   return scene;

@@ -74,7 +74,7 @@ struct PackingScene {
 };
 
 struct SleeperScene {
-  std::string model;             ///< "rigid" | "elastic"
+  std::string model;             ///< "rigid" | "elastic" (`auto` has been decided)
   double length, width, height;  ///< in x, y, z [m]
   double density, modulus, poisson, friction;
   std::vector<double> elements;  ///< in x, y, z
@@ -135,6 +135,7 @@ struct Scene {
   std::string name;  ///< file name without ending: names the results folder
   std::string file;
   std::map<std::string, std::string> values;  ///< every parameter as used: "Section/Key" to text
+  std::vector<std::string> decisions;         ///< what `auto` came to, and why
   std::string resolved;                       ///< the same as a parameter file (scene.resolved.prm)
   ContainerScene container;
   GrainScene grains;

@@ -109,7 +109,7 @@ int cost_command(const CostOptions& o) {
   const std::string path =
       o.output.empty() ? "results/" + std::filesystem::path(o.scene).stem().string() + "_cost"
                        : o.output;
-  Study study = make_study(o.scene, o.set, o.knobs, o.pairs, o.seeds, path);
+  Study study = make_study(o.scene, o.set, o.knobs, o.pairs, o.effects, o.seeds, path);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const JobOptions options{o.scene, path, o.threads > 0 ? o.threads : cores};
   for (Variant& variant : study.variants) add_jobs(study, variant);

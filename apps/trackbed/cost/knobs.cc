@@ -5,8 +5,10 @@
 #include <cstdio>
 
 #include "apps/trackbed/csv.h"
+#include "apps/trackbed/effects.h"
 #include "apps/trackbed/parameters.h"
 #include "base/error.h"
+#include "coupling/knobs.h"
 #include "dem/grain/nearest_name.h"
 #include "dem/knobs.h"
 #include "fem/knobs.h"
@@ -69,8 +71,23 @@ std::string scaled_text(const Knob& knob, const std::vector<double>& own, int st
 std::vector<Knob> all_knobs() {
   std::vector<Knob> knobs;
   for (const auto& list : {dem::motion_knobs(), dem::contact_knobs(), dem::grading_knobs(),
-                           fem::fem_knobs(), scene_knobs()})
+                           fem::fem_knobs(), coupling::coupling_knobs(), scene_knobs()})
     knobs.insert(knobs.end(), list.begin(), list.end());
+  return knobs;
+}
+
+std::vector<Knob> effect_knobs(const Scene& scene) {
+  std::vector<Knob> knobs;
+  for (const EffectKind& kind : effect_kinds()) {
+    Knob knob;
+    knob.name = kind.name;
+    std::replace(knob.name.begin(), knob.name.end(), ' ', '_');
+    knob.path = kind.path;
+    knob.quantity = "settlement";
+    knob.meaning = kind.adds;
+    knob.rungs = {kind.off, kind.is_on(scene) ? scene.values.at(kind.path) : kind.on};
+    knobs.push_back(knob);
+  }
   return knobs;
 }
 

@@ -11,6 +11,10 @@ namespace trackbed::apps {
 /// Those of the libraries, then those of scenes: load, domain, grain library.
 std::vector<Knob> all_knobs();
 
+/// Each effect as a ladder of two rungs, without and with it (as the scene has it where it is on):
+/// what leaving it out does, and what having it costs.
+std::vector<Knob> effect_knobs(const Scene&);
+
 /// What errors are measured on; the plots know each by this name (apps/plots/cost.py).
 std::vector<std::string> cost_quantities();
 

@@ -94,9 +94,12 @@ int add_job(Study& study, Job job) {
 
 Study make_study(const std::string& file, const std::vector<std::string>& set,
                  const std::vector<std::string>& knobs, const std::vector<std::string>& pairs,
-                 int seeds, const std::string& folder) {
+                 bool effects, int seeds, const std::string& folder) {
   const Scene scene = read_scene(file, set);
-  Study study{file, folder, set, scene.grains.seed, seeds, chosen_knobs(knobs, scene), {}, {}};
+  Study study{file,  folder,
+              set,   scene.grains.seed,
+              seeds, effects ? effect_knobs(scene) : chosen_knobs(knobs, scene),
+              {},    {}};
   study.variants.push_back({"own", "", 0, 0, true, {}, {}, {}});
   // What differs after a change of about one bit is noise, not accuracy.
   study.variants.push_back({"repeat", "", 0, 0, false, {"Numerics/Mirror noise=1e-15"}, {}, {}});

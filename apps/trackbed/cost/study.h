@@ -33,10 +33,11 @@ struct Study {
 };
 
 /// The study's variants without jobs. `pairs`: "a:b". Empty `knobs` = all that matter in the scene.
-/// Throws InputError: unknown knob, a knob that changes nothing in this scene, a pair of one knob.
+/// `effects`: those instead of knobs. Throws InputError: unknown knob, a knob that changes nothing
+/// in this scene, a pair of one knob.
 Study make_study(const std::string& scene, const std::vector<std::string>& set,
                  const std::vector<std::string>& knobs, const std::vector<std::string>& pairs,
-                 int seeds, const std::string& folder);
+                 bool effects, int seeds, const std::string& folder);
 
 /// Gives a variant its jobs with their expected times; equal scenes share a job, equal packings
 /// one packing. A variant that the scene's checks refuse is marked as left out.

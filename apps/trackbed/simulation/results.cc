@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "apps/trackbed/csv.h"
+#include "apps/trackbed/effects.h"
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/measures.h"
@@ -99,6 +100,7 @@ void write_results(const Run& run, const std::string& folder, double wall) {
   write_grains(run, folder + "/grains.csv");
   write_timing(run, folder + "/timing.csv", wall);
   write_summary(run, folder + "/summary.csv", wall);
+  write_effects(run.scene, folder + "/effects.csv");
   if (run.stage.pressure_samples > 0) write_pressure(run, folder + "/pressure.csv");
 }
 

@@ -1,0 +1,12 @@
+// What a scene leaves open with `auto`, decided by a criterion.
+#pragma once
+#include "apps/trackbed/scene.h"
+
+namespace trackbed::apps {
+
+/// Puts the chosen model in the place of `auto` and says why in Scene::decisions.
+/// Sleeper/Model: rigid where the sleeper is a short beam on its bed (fem/bending.h), the bed taken
+/// as stiff as ballast is at most (200 MPa), which errs on the side of elastic.
+void decide(Scene&);
+
+}  // namespace trackbed::apps

@@ -1,0 +1,97 @@
+#include "apps/trackbed/effects.h"
+
+#include <cmath>
+
+#include "apps/trackbed/csv.h"
+
+namespace trackbed::apps {
+namespace {
+
+std::string text_of(const StructureCost& c) {
+  if (c.unknowns == 0) return "one solve or product a step";  // not measured
+  return shortest(std::round(c.unknowns)) + " unknowns, each step " +
+         (c.solves ? "one solve, " : "no solve, ") + shortest(std::ceil(1e5 * c.seconds) / 100) +
+         " ms";
+}
+
+std::string tamping_cost(const Scene& s, const Plan&) {
+  return "at most " + std::to_string(s.packing.plate_cycles) + " cycles";
+}
+
+std::string exchange_cost(const Scene& s, const Plan&) {
+  const NumericsScene& n = s.numerics;
+  if (n.exchange == "several_steps")
+    return "structures step once in " + std::to_string(n.grain_steps) + " grain steps";
+  if (n.exchange == "iterated")
+    return "two or three structure steps and surface evaluations a step";
+  return n.exchange;
+}
+
+}  // namespace
+
+const std::vector<EffectKind>& effect_kinds() {
+  static const std::vector<EffectKind> kinds{
+      {"elastic sleeper", "Sleeper/Model", "rigid", "elastic",
+       "a finite element step, contacts with its deforming surface",
+       [](const Scene& s) { return s.sleeper.model != "rigid"; },
+       [](const Scene&, const Plan& p) { return text_of(p.sleeper); }},
+      {"under-sleeper pad", "Sleeper/Pad thickness", "0", "0.01", "elements of a second material",
+       [](const Scene& s) { return s.sleeper.model != "rigid" && s.sleeper.pad_thickness > 0; },
+       nullptr},
+      {"elastic subgrade", "Subgrade/Model", "rigid", "layered_elastic",
+       "a finite element step, contacts with its deforming surface",
+       [](const Scene& s) { return s.subgrade.model != "rigid"; },
+       [](const Scene&, const Plan& p) { return text_of(p.subgrade); }},
+      {"periodic along track", "Container/Periodic along track", "false", "true",
+       "images of grains at the seam", [](const Scene& s) { return s.container.periodic; },
+       nullptr},
+      {"half by symmetry", "Container/Half by symmetry", "false", "true",
+       "saves half of the grains", [](const Scene& s) { return s.container.half; }, nullptr},
+      {"shoulders", "Container/Shoulder width", "0", "0.3", "grains beyond the sleeper's ends",
+       [](const Scene& s) { return s.container.shoulder_width > 0; }, nullptr},
+      {"local damping while packing", "Contact/Packing damping", "0", "0.4",
+       "one product per grain and step",
+       [](const Scene& s) { return s.contact.packing_damping > 0; }, nullptr},
+      {"local damping while loading", "Contact/Local damping", "0", "0.1",
+       "one product per grain and step; dissipates",
+       [](const Scene& s) { return s.contact.damping > 0; }, nullptr},
+      {"tamping", "Packing/Plate cycles", "0", "8", "cycles of a plate on the bed",
+       [](const Scene& s) { return s.packing.plate_cycles > 0; }, tamping_cost},
+      {"exchange other than predicted", "Numerics/Exchange", "predicted", "iterated",
+       "more surface evaluations a step, or fewer steps of the structures",
+       [](const Scene& s) { return s.numerics.exchange != "predicted"; }, exchange_cost},
+      {"last-bit noise of the start", "Numerics/Mirror noise", "0", "1e-15", "nothing",
+       [](const Scene& s) { return s.numerics.mirror_noise > 0; }, nullptr}};
+  return kinds;
+}
+
+std::vector<Effect> effects_of(const Scene& scene, const Plan& plan) {
+  std::vector<Effect> effects;
+  for (const EffectKind& kind : effect_kinds()) {
+    const bool on = kind.is_on(scene);
+    effects.push_back({kind.name, on,
+                       !on         ? kind.path + " = " + kind.on
+                       : kind.cost ? kind.cost(scene, plan)
+                                   : kind.adds});
+  }
+  return effects;
+}
+
+void write_effects(const Scene& scene, const std::string& file) {
+  CsvWriter csv(file, {"effect", "on", "cost_or_switch"});
+  for (const Effect& e : effects_of(scene, {})) csv.row({e.name, e.on, e.cost});
+  for (const std::string& why : scene.decisions) csv.row({"decided", true, why});
+  csv.flush();
+}
+
+std::string effects_markdown() {
+  std::string text =
+      "\n## Effects\n\nWhat a scene may leave out; what is off is computed nowhere.\n\n"
+      "| Effect | Key | Off | On, such as | Adds |\n|---|---|---|---|---|\n";
+  for (const EffectKind& k : effect_kinds())
+    text +=
+        "| " + k.name + " | " + k.path + " | `" + k.off + "` | `" + k.on + "` | " + k.adds + " |\n";
+  return text;
+}
+
+}  // namespace trackbed::apps
