@@ -9,8 +9,11 @@ set_tests_properties(unit/forbidden_includes PROPERTIES LABELS unit)
 trackbed_test(apps_parameters unit trackbed_program)
 trackbed_test(apps_output unit trackbed_program)
 trackbed_test(apps_cost unit trackbed_program)
-target_compile_definitions(apps_cost_test PRIVATE
-                           TINY="${CMAKE_CURRENT_SOURCE_DIR}/scenes/tiny.prm")
+trackbed_test(apps_effects unit trackbed_program)
+foreach(name apps_cost apps_effects)
+  target_compile_definitions(${name}_test PRIVATE
+                             TINY="${CMAKE_CURRENT_SOURCE_DIR}/scenes/tiny.prm")
+endforeach()
 target_compile_definitions(apps_parameters_test PRIVATE
                            SCENES="${PROJECT_SOURCE_DIR}/apps/scenes")
 

@@ -149,8 +149,13 @@ def effects(run):
                 value = "" if value != value else number(float(value), 4)
             cells.append("" if column == "unit" and value == "1" else value)
         rows.append(cells)
+    listed = run.try_table("effects.csv")
+    shown = "" if listed is None else page.table(
+        ["effect", "", "cost, or what switches it on"],
+        [(name, "on" if on == 1 else "off", words) for name, on, words in
+         zip(listed["effect"], listed["on"], listed["cost_or_switch"])])
     return page.section("Effects and accuracy",
-                        page.paragraph("What was computed, and what each approximation costs."),
+                        page.paragraph("What was computed, and what each approximation costs."), shown,
                         page.table(["quantity", "value", "unit", "meaning"], rows, numeric=(1,)))
 
 

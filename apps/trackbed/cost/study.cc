@@ -124,8 +124,10 @@ void add_jobs(Study& study, Variant& variant) {
         if (k == 0) expected = expected_seconds(scene);
         int base = job_with(study, packing);
         if (base < 0)
-          base = add_job(study, {"packs/" + packing, set, packing, -1, expected.packing});
-        job = add_job(study, {folder_of(variant, k + 1), set, inputs, base, expected.run});
+          base = add_job(study, {"packs/" + packing, set, packing, -1, expected.packing,
+                                 JobStatus::waiting, 0, ""});
+        job = add_job(study, {folder_of(variant, k + 1), set, inputs, base, expected.run,
+                              JobStatus::waiting, 0, ""});
       }
       variant.jobs.push_back(job);
     } catch (const InputError& error) {
