@@ -12,6 +12,9 @@ motion_test(motion_impacts hard)
 motion_test(pairs_friction unit)
 motion_test(pairs_candidates unit)
 
+add_library(settled_bed STATIC ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/settled_bed.cc)
+target_include_directories(settled_bed PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks
+                           ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+target_link_libraries(settled_bed PUBLIC trackbed_dem)
 add_executable(motion_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/motion_benchmark.cc)
-target_link_libraries(motion_benchmark PRIVATE trackbed_dem)
-target_include_directories(motion_benchmark PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+target_link_libraries(motion_benchmark PRIVATE settled_bed)

@@ -67,6 +67,7 @@ void Candidates::rebuild(const Bodies& b, const ShapeTable& shapes, const StepCo
   search_rigid(b, shapes, c);
   std::sort(found_.begin(), found_.end());
   carry_history(b.size(), pairs);
+  drop_far_pairs(b, shapes, c, pairs);
   ++state_.rebuilds;
 }
 
@@ -131,6 +132,31 @@ void Candidates::carry_history(int bodies, Pairs& pairs) {
   pairs.rearrange(old);
   for (int p = 0; p < n; ++p) std::tie(pairs.a[p], pairs.b[p]) = found_[p];
   pairs.index_bodies(bodies);
+}
+
+void Candidates::drop_far_pairs(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
+                                Pairs& pairs) {
+  std::vector<char> far(pairs.size(), 0);
+#pragma omp parallel for schedule(dynamic, 64) num_threads(c.threads) if (c.threads > 1)
+  for (int p = 0; p < pairs.size(); ++p) {
+    if (pairs.touching[p] || pairs.friction_loss[p] != 0) continue;
+    const int i = pairs.a[p], j = pairs.b[p];
+    const double travel = state_.travel[i] + state_.travel[j];
+    double gap = pairs.wake[p] - travel;  // at least, of a pair that was looked at before
+    if (!(gap > 0)) {
+      const Pose pa{b.R[i], b.x[i]};
+      const Pose pb{b.R[j], b.x[j] + nearest_image(b.x[i], b.x[j], c.period)};
+      gap =
+          separating_axis(shapes.view(b.shape[i]), pa, shapes.view(b.shape[j]), pb, pairs.axis[p]);
+      if (gap > 0) pairs.wake[p] = travel + gap;
+    }
+    far[p] = gap > state_.skin;
+  }
+  std::vector<int> kept;
+  for (int p = 0; p < pairs.size(); ++p)
+    if (!far[p]) kept.push_back(p);
+  pairs.rearrange(kept);
+  pairs.index_bodies(b.size());
 }
 
 }  // namespace trackbed::dem

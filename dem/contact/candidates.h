@@ -1,6 +1,8 @@
 // Which pairs may touch before the next search: cell grid over the grains' boxes, grown by half
 // a skin; rigid bodies (walls, plate, sleeper: large, few) are tested against all grains by their
-// boxes and face planes. The list holds until some body's surface may have travelled half a skin.
+// boxes and face planes. Boxes of angular grains meet long before the grains do: pairs that an axis
+// keeps apart by more than the skin are dropped, two of three in a dense bed. The list holds until
+// some body's surface may have travelled half a skin.
 //
 // Travel of body i [m]: sum over all steps of |v| dt + radius |turn|, an upper bound of the way of
 // its points. It only grows; the same number tells each pair when to look again (Pairs::wake).
@@ -51,6 +53,7 @@ class Candidates {
   void search_grains(const Bodies&, const StepContext&);
   void search_rigid(const Bodies&, const ShapeTable&, const StepContext&);
   void carry_history(int bodies, Pairs&);
+  void drop_far_pairs(const Bodies&, const ShapeTable&, const StepContext&, Pairs&);
 
   CandidateSettings settings_;
   State state_;

@@ -1,6 +1,7 @@
 #include "dem/contact/overlap.h"
 
 #include "dem/contact/overlap_clip.h"
+#include "dem/contact/overlap_simple.h"
 
 namespace trackbed::dem {
 namespace {
@@ -67,27 +68,19 @@ struct Mark {
   }
 };
 
-}  // namespace
-
-bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
-             const ContactFrame& frame, OverlapWorkspace& work, OverlapMoments& moments) {
+PlacedBody placed(const ConvexView& v, const Pose& p, const ContactFrame& frame) {
   const Mat3 to_frame = frame.axes.transpose();
-  const PlacedBody body_a{a, to_frame * pa.R, to_frame * (pa.x - frame.origin)};
-  const PlacedBody body_b{b, to_frame * pb.R, to_frame * (pb.x - frame.origin)};
-  const Mark mark(work);
-  const Clipped small = clip_small(body_a, body_b, work);
-  if (small == Clipped::nothing) return false;
-  if (small == Clipped::too_large) {
-    mark.back(work);
-    if (!clip_any(body_a, body_b, work)) return false;
-  }
+  return {v, to_frame * p.R, to_frame * (p.x - frame.origin)};
+}
 
-  if (small == Clipped::tetrahedron && !(moments.volume > 0)) {
+// Adds the moments of what was appended; takes it back when it has no volume.
+bool sum_moments(bool is_tetrahedron, const Mark& mark, OverlapWorkspace& work,
+                 OverlapMoments& moments) {
+  if (is_tetrahedron && !(moments.volume > 0)) {
     const Vec3* p = work.points.data() + mark.points;
     const OverlapMoments m = tetrahedron(p[0], p[1], p[2], p[5]);
     if (m.volume > 0) return moments = m, true;
   }
-
   Vec3 about = moments.about;
   const std::size_t count = work.points.size() - mark.points;
   if (!(moments.volume > 0) && count > 0) {  // a point inside: the mean of the corners
@@ -112,6 +105,39 @@ bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pos
   m(0, 1) += sum.xy / 120, m(0, 2) += sum.xz / 120, m(1, 2) += sum.yz / 120;
   m(1, 0) = m(0, 1), m(2, 0) = m(0, 2), m(2, 1) = m(1, 2);
   return true;
+}
+
+}  // namespace
+
+bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
+             const ContactFrame& frame, OverlapWorkspace& work, OverlapMoments& moments) {
+  const PlacedBody body_a = placed(a, pa, frame), body_b = placed(b, pb, frame);
+  const Mark mark(work);
+  work.feature = {};
+  const Clipped small = clip_small(body_a, body_b, work);
+  if (small == Clipped::nothing) return false;
+  if (small == Clipped::too_large) {
+    mark.back(work);
+    if (!clip_any(body_a, body_b, work)) return false;
+  }
+  return sum_moments(small == Clipped::tetrahedron, mark, work, moments);
+}
+
+bool overlap_again(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
+                   const ContactFrame& frame, const OverlapFeature& feature, OverlapWorkspace& work,
+                   OverlapMoments& moments) {
+  const PlacedBody body_a = placed(a, pa, frame), body_b = placed(b, pb, frame);
+  const Mark mark(work);
+  int corners = 0;
+  if (feature.code) {
+    corners = clip_feature(body_a, body_b, SimpleFeature::of(feature.code), work);
+    if (corners == 0) return false;
+    work.feature = feature;
+  } else if (!clip_faces(body_a, body_b, feature, work)) {
+    mark.back(work);
+    return false;
+  }
+  return sum_moments(corners == 4, mark, work, moments);
 }
 
 }  // namespace trackbed::dem

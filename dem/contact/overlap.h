@@ -21,6 +21,7 @@
 //     const PressureForce f = integrate_pressure(workspace, workspace.a_pieces, shape, response);
 //   }
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "dem/contact/shape_table.h"
@@ -40,6 +41,17 @@ struct ContactFrame {
   Mat3 axes;
 };
 
+/// A right-handed basis with third axis n (unit) that depends smoothly on n but for n.z = 0 (Duff
+/// et al., JCGT 6, 2017).
+inline Mat3 axes_along(const Vec3& n) {
+  const double sign = std::copysign(1.0, n.z()), u = -1.0 / (sign + n.z()), w = n.x() * n.y() * u;
+  Mat3 axes;
+  axes << 1.0 + sign * n.x() * n.x() * u, w, n.x(),  //
+      sign * w, sign + n.y() * n.y() * u, n.y(),     //
+      -sign * n.x(), -n.y(), n.z();
+  return axes;
+}
+
 /// A polygon of one body's face inside the other body: points [first, first+count) of
 /// OverlapWorkspace::points, in frame coordinates, counter-clockwise seen from outside that body;
 /// `area` is its vector area (outward from the body it belongs to).
@@ -49,12 +61,20 @@ struct OverlapPiece {
   Vec3 area;
 };
 
+/// What an overlap is made of, where overlap_feature.h may start from in the next step.
+struct OverlapFeature {
+  int code = 0;                  ///< of a SimpleFeature, 0 = of no simple kind
+  int faces_a = 0, faces_b = 0;  ///< else the faces that bound it, as bits; 0 = not known
+  explicit operator bool() const { return code != 0 || faces_a != 0; }
+};
+
 /// Scratch of one thread; no allocation once warm.
 struct OverlapWorkspace {
   std::vector<Vec3> points;
   std::vector<OverlapPiece> a_pieces, b_pieces;
+  OverlapFeature feature;  ///< of the last overlap found
 
-  void clear() { points.clear(), a_pieces.clear(), b_pieces.clear(); }
+  void clear() { points.clear(), a_pieces.clear(), b_pieces.clear(), feature = {}; }
 
   // Scratch of overlap(): what is inside the slab of one body, and two polygons.
   struct Cap {

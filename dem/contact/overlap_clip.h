@@ -52,6 +52,10 @@ inline void add_piece(int face, int n, const double* x, const double* y, const d
 /// first triangle is 0, 1, 2. too_large: pieces may have been appended and must be taken back.
 enum class Clipped { nothing, pieces, tetrahedron, too_large };
 
+/// By the faces of a feature; notes those of the result in the workspace. False when they are not
+/// what bounds the overlap; pieces may have been appended then.
+bool clip_faces(const PlacedBody& a, const PlacedBody& b, const OverlapFeature&, OverlapWorkspace&);
+
 Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace&);
 
 /// False when nothing overlaps for certain.

@@ -3,10 +3,6 @@
 namespace trackbed::dem {
 namespace {
 
-// Rounding of distances is about 1e-16 of the size: a rise above 1e-6 of it keeps crossings to
-// 1e-10 of an edge, and what is clear by 1e-13 is certain.
-constexpr double kLeastRise = 1e-6, kClear = 1e-7;  // the latter of the former
-
 struct Point {
   double x, y, z;
 };
@@ -68,7 +64,7 @@ void add(int face, const Point& p, const Point& q, const Point& r, OverlapWorksp
 
 // Vertex v of `own` in one face of `other`; returns the number of corners of the overlap, or 0.
 int vertex_in_face(const ConvexView& view, const Side& own, int v, const Side& other, double least,
-                   OverlapWorkspace& work, std::vector<OverlapPiece>& own_pieces,
+                   OverlapWorkspace& work, int& face, std::vector<OverlapPiece>& own_pieces,
                    std::vector<OverlapPiece>& other_pieces) {
   constexpr int kEdges = 8;
   const Point tip = vertex(own, v);
@@ -76,7 +72,7 @@ int vertex_in_face(const ConvexView& view, const Side& own, int v, const Side& o
   const int begin = view.neighbor_begin[v], edges = view.neighbor_begin[v + 1] - begin;
   if (edges > kEdges) return 0;
   double x[kEdges], y[kEdges], z[kEdges];
-  int face = -1;
+  face = -1;
   for (int k = 0; k < edges; ++k) {
     const Point end = vertex(own, view.neighbor[begin + k]);
     Span s;
@@ -94,7 +90,7 @@ int vertex_in_face(const ConvexView& view, const Side& own, int v, const Side& o
 }
 
 struct Edge {
-  int from, to, left, right;
+  int from, which, to, left, right;
 };
 
 // f(edge) for the edges of the slab's part between two faces that may matter, until f is true.
@@ -106,7 +102,8 @@ bool any_edge(const ConvexView& v, const Side& s, F f) {
     for (int k = begin; k < end; ++k) {
       const int left = v.left_face[k], j = v.neighbor[k];
       const bool once = j > i || !(s.kept >> j & 1);
-      if (once && (s.faces >> left & 1) && (s.faces >> right & 1) && f(Edge{i, j, left, right}))
+      if (once && (s.faces >> left & 1) && (s.faces >> right & 1) &&
+          f(Edge{i, k - begin, j, left, right}))
         return true;
       right = left;
     }
@@ -136,6 +133,8 @@ bool edge_on_edge(const PlacedBody& a, const Side& sa, const PlacedBody& b, cons
       add(ea.right, p2, p1, right, work, work.a_pieces);
       add(in_b.in, p1, left, right, work, work.b_pieces);
       add(in_b.out, p2, right, left, work, work.b_pieces);
+      work.feature.code =
+          SimpleFeature{SimpleFeature::edges, ea.from, ea.which, eb.from, eb.which}.code();
       return true;
     });
   });
@@ -155,14 +154,21 @@ int extreme(const Side& s, double up) {
 Clipped clip_simple(const PlacedBody& a, const Side& sa, const PlacedBody& b, const Side& sb,
                     OverlapWorkspace& work) {
   for (const ConvexView* v : {&a.view, &b.view})
-    if (!v->neighbor || !v->left_face) return Clipped::nothing;
+    if (!v->neighbor || !v->left_face || !v->planes_padded) return Clipped::nothing;
   if (!sa.kept || !sb.kept) return Clipped::nothing;
   const double least = kLeastRise * (a.view.radius < b.view.radius ? a.view.radius : b.view.radius);
+  int face = 0;
+  const int top = extreme(sa, 1), bottom = extreme(sb, -1);
   int corners =
-      vertex_in_face(a.view, sa, extreme(sa, 1), sb, least, work, work.a_pieces, work.b_pieces);
-  if (!corners)
+      vertex_in_face(a.view, sa, top, sb, least, work, face, work.a_pieces, work.b_pieces);
+  if (corners) {
+    work.feature.code = SimpleFeature{SimpleFeature::vertex_of_a, top, 0, face, 0}.code();
+  } else {
     corners =
-        vertex_in_face(b.view, sb, extreme(sb, -1), sa, least, work, work.b_pieces, work.a_pieces);
+        vertex_in_face(b.view, sb, bottom, sa, least, work, face, work.b_pieces, work.a_pieces);
+    if (corners)
+      work.feature.code = SimpleFeature{SimpleFeature::vertex_of_b, face, 0, bottom, 0}.code();
+  }
   if (!corners && edge_on_edge(a, sa, b, sb, least, work)) corners = 4;
   return corners == 0 ? Clipped::nothing : corners == 4 ? Clipped::tetrahedron : Clipped::pieces;
 }

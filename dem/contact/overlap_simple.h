@@ -12,10 +12,20 @@
 // polygons.
 #pragma once
 #include "dem/contact/overlap_clip.h"
+#include "dem/contact/overlap_feature.h"
 
 namespace trackbed::dem {
 
 constexpr int kMost = 64;
+
+// Rounding of distances is about 1e-16 of the size: a rise above 1e-6 of it keeps crossings to
+// 1e-10 of an edge, and what is clear by 1e-13 is certain.
+constexpr double kLeastRise = 1e-6, kClear = 1e-7;  // the latter of the former
+
+/// A bit for each face of a body of at most 64.
+inline std::uint64_t face_bits(const ConvexView& v) {
+  return v.faces >= 64 ? ~std::uint64_t(0) : (std::uint64_t(1) << v.faces) - 1;
+}
 
 /// A body of at most 64 vertices and faces in frame coordinates, and its part in the slab.
 struct Side {
@@ -28,9 +38,14 @@ struct Side {
   double high = 0, low = 0;
 };
 
-/// Appends the pieces and returns `tetrahedron` or `pieces` if the overlap is one of the two kinds,
-/// else `nothing`. The faces are to be culled first: it looks at every edge between them.
+/// Appends the pieces, notes the feature in the workspace, and returns `tetrahedron` or `pieces` if
+/// the overlap is one of the two kinds, else `nothing`. The faces are to be culled first: it looks
+/// at every edge between them.
 Clipped clip_simple(const PlacedBody& a, const Side&, const PlacedBody& b, const Side&,
                     OverlapWorkspace&);
+
+/// The same when the feature is known; returns the number of the overlap's corners, 0 when it is
+/// something else.
+int clip_feature(const PlacedBody& a, const PlacedBody& b, const SimpleFeature&, OverlapWorkspace&);
 
 }  // namespace trackbed::dem

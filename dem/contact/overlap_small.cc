@@ -224,7 +224,59 @@ bool add_pieces(const PlacedBody& body, const Side& own, const Side& other, doub
   return true;
 }
 
+// The faces of the pieces appended, where an int has room for them and they are more than the four
+// of a simple kind that was missed.
+void note_faces(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace& work) {
+  work.feature = {};
+  if (a.view.faces > 31 || b.view.faces > 31) return;
+  if (work.a_pieces.size() + work.b_pieces.size() <= 4) return;
+  for (const OverlapPiece& piece : work.a_pieces) work.feature.faces_a |= 1 << piece.face;
+  for (const OverlapPiece& piece : work.b_pieces) work.feature.faces_b |= 1 << piece.face;
+}
+
+// All corners of the pieces lie inside these faces of the other body; adds the pieces' areas.
+bool inside(const Side& s, std::uint64_t faces, double slack, const OverlapWorkspace& work,
+            const std::vector<OverlapPiece>& pieces, Vec3& area) {
+  std::uint64_t outside = 0;
+  for (const OverlapPiece& piece : pieces) {
+    area += piece.area;
+    for (int f = 0; f < kMost && faces >> f; f += 8) {
+      const Eight nx = Eight::load(s.nx + f), ny = Eight::load(s.ny + f),
+                  nz = Eight::load(s.nz + f), limit = Eight::load(s.offset + f) + Eight(slack);
+      unsigned bits = 0;
+      for (int k = piece.first; k < piece.first + piece.count; ++k) {
+        const Vec3& p = work.points[k];
+        bits |= less(limit, fma(nx, Eight(p.x()), fma(ny, Eight(p.y()), nz * Eight(p.z()))));
+      }
+      outside |= std::uint64_t(bits) << f;
+    }
+  }
+  return (outside & faces) == 0;
+}
+
 }  // namespace
+
+bool clip_faces(const PlacedBody& a, const PlacedBody& b, const OverlapFeature& feature,
+                OverlapWorkspace& work) {
+  if (!a.view.corners || !b.view.corners || !suitable(a.view) || !suitable(b.view)) return false;
+  constexpr double kNoCut = 1e300;
+  Side side_a, side_b;
+  planes_to_frame(a, side_a);
+  planes_to_frame(b, side_b);
+  side_a.faces = static_cast<unsigned>(feature.faces_a);
+  side_b.faces = static_cast<unsigned>(feature.faces_b);
+  if (!add_pieces<1>(a, side_a, side_b, -kNoCut, work, work.a_pieces) ||
+      !add_pieces<-1>(b, side_b, side_a, kNoCut, work, work.b_pieces))
+    return false;
+  const double slack = 1e-15 * (a.view.radius + b.view.radius);
+  Vec3 area_a = Vec3::Zero(), area_b = Vec3::Zero();
+  if (!inside(side_b, face_bits(b.view) & ~side_b.faces, slack, work, work.a_pieces, area_a) ||
+      !inside(side_a, face_bits(a.view) & ~side_a.faces, slack, work, work.b_pieces, area_b))
+    return false;
+  if (!((area_a + area_b).squaredNorm() <= 1e-18 * area_a.squaredNorm())) return false;
+  note_faces(a, b, work);
+  return true;
+}
 
 Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace& work) {
   if (!suitable(a.view) || !suitable(b.view)) return Clipped::too_large;
@@ -246,6 +298,7 @@ Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace& w
   if (!add_pieces<1>(a, side_a, side_b, cut.a, work, work.a_pieces) ||
       !add_pieces<-1>(b, side_b, side_a, cut.b, work, work.b_pieces))
     return Clipped::too_large;
+  note_faces(a, b, work);
   return Clipped::pieces;
 }
 

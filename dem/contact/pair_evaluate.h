@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include "dem/contact/friction.h"
+#include "dem/contact/overlap_feature.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/pressure.h"
 
@@ -20,6 +21,7 @@ inline double tilt_stiffness(const OverlapShape& s, double stiffness) {
 inline void release(Pairs& pairs, int p) {
   if (!pairs.touching[p] && pairs.friction_loss[p] == 0) return;
   pairs.touching[p] = 0;
+  pairs.feature[p] = pairs.faces_a[p] = pairs.faces_b[p] = 0;
   for (auto* v : {&pairs.friction, &pairs.force, &pairs.couple, &pairs.normal_force})
     (*v)[p].setZero();
   // What the tangential spring still held is lost with the contact.
@@ -34,11 +36,11 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
                    const StepContext& c, const std::vector<double>& travel, OverlapWorkspace& work,
                    Pairs& pairs, int p) {
   const int i = pairs.a[p], j = pairs.b[p];
-  const ConvexView va = shapes.view(b.shape[i]), vb = shapes.view(b.shape[j]);
+  const ConvexView &va = shapes.view(b.shape[i]), &vb = shapes.view(b.shape[j]);
   const Pose pa{b.R[i], b.x[i]};
   const Pose pb{b.R[j], b.x[j] + nearest_image(b.x[i], b.x[j], c.period)};
 
-  // Touching pairs go straight to the overlap with their last normal.
+  // Touching pairs go straight to the overlap with their last normal, or what it was made of.
   Vec3& axis = pairs.axis[p];
   OverlapMoments moments;
   ContactFrame frame;
@@ -48,7 +50,13 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     moments = OverlapMoments();
     return overlap(va, pa, vb, pb, frame, work, moments);
   };
-  if (!pairs.touching[p] || !overlaps()) {
+  const OverlapFeature feature{pairs.feature[p], pairs.faces_a[p], pairs.faces_b[p]};
+  const auto overlaps_again = [&] {
+    frame = {pa.x + pairs.arm_a[p], axes_along(axis)};
+    work.clear();
+    return overlap_again(va, pa, vb, pb, frame, feature, work, moments);
+  };
+  if (!(feature && overlaps_again()) && !(pairs.touching[p] && overlaps())) {
     const double gap = separating_axis(va, pa, vb, pb, axis);
     if (gap > 0) pairs.wake[p] = travel[i] + travel[j] + gap;
     if (gap > 0 || !overlaps()) return release(pairs, p);
@@ -79,6 +87,9 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     pairs.friction_loss[p] = result.dissipated;
   }
   pairs.touching[p] = 1;
+  pairs.feature[p] = work.feature.code;
+  pairs.faces_a[p] = work.feature.faces_a;
+  pairs.faces_b[p] = work.feature.faces_b;
   pairs.arm_a[p] = arm_a;
   pairs.arm_b[p] = arm_b;
   pairs.force[p] = force;
@@ -91,19 +102,27 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   pairs.tilt_stiffness[p] = tilt_stiffness(shape, response.stiffness);
 }
 
+/// The pairs that may touch, in order; of the others, what only a step's evaluation sets.
+inline void find_awake(const std::vector<double>& travel, Pairs& pairs) {
+  pairs.awake.clear();
+  for (int p = 0; p < pairs.size(); ++p) {
+    if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p])
+      pairs.friction_loss[p] = 0;
+    else
+      pairs.awake.push_back(p);
+  }
+}
+
 template <class Law, bool friction>
 void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                     const StepContext& c, const std::vector<double>& travel, Pairs& pairs) {
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
+  find_awake(travel, pairs);
+  const int awake = static_cast<int>(pairs.awake.size());
 #pragma omp parallel for schedule(dynamic, 32) num_threads(c.threads) if (c.threads > 1)
-  for (int p = 0; p < pairs.size(); ++p) {
-    if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p]) {
-      pairs.friction_loss[p] = 0;
-      continue;
-    }
+  for (int k = 0; k < awake; ++k)
     evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
-                                 pairs.workspaces[omp_get_thread_num()], pairs, p);
-  }
+                                 pairs.workspaces[omp_get_thread_num()], pairs, pairs.awake[k]);
 }
 
 /// The two instances of a law.

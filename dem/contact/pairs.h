@@ -14,11 +14,12 @@ struct Pairs {
   std::vector<int> a, b;
 
   // History. `wake`: the pair is apart until travel[a] + travel[b] (Candidates) passes it [m].
-  std::vector<Vec3> axis;                  ///< direction a to b of least separation, any length
-  std::vector<double> wake;                ///< [m]
-  std::vector<Vec3> friction;              ///< tangential force on a [N]
-  std::vector<double> friction_stiffness;  ///< k_t of the last step [N/m]; 0 = was not touching
-  std::vector<Vec3> arm_a, arm_b;          ///< contact point less centre of a, of b [m]
+  std::vector<Vec3> axis;                      ///< direction a to b of least separation, any length
+  std::vector<double> wake;                    ///< [m]
+  std::vector<Vec3> friction;                  ///< tangential force on a [N]
+  std::vector<double> friction_stiffness;      ///< k_t of the last step [N/m]; 0 = was not touching
+  std::vector<int> feature, faces_a, faces_b;  ///< of the last overlap (OverlapFeature)
+  std::vector<Vec3> arm_a, arm_b;              ///< contact point less centre of a, of b [m]
 
   // Results of the last evaluation; zero for a pair that does not touch.
   std::vector<std::uint8_t> touching;
@@ -38,6 +39,7 @@ struct Pairs {
   std::vector<int> first, incident;
 
   std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
+  std::vector<int> awake;                    ///< scratch: the pairs that a step looks at
 
   int size() const { return static_cast<int>(a.size()); }
   void resize(int pairs);  ///< new entries are zero
@@ -52,7 +54,8 @@ struct Pairs {
 template <class P, class F>
 void for_each_pair_array(P& p, F&& f) {
   f("a", p.a), f("b", p.b);
-  f("axis", p.axis), f("wake", p.wake);
+  f("axis", p.axis), f("wake", p.wake), f("feature", p.feature);
+  f("faces_a", p.faces_a), f("faces_b", p.faces_b);
   f("friction", p.friction), f("friction_stiffness", p.friction_stiffness);
   f("arm_a", p.arm_a), f("arm_b", p.arm_b);
   f("touching", p.touching);

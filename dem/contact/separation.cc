@@ -226,11 +226,7 @@ ContactFrame contact_frame(const ConvexView& a, const Pose& pa, const ConvexView
     n = pa.R * Vec3(a.nx[face_a], a.ny[face_a], a.nz[face_a]);
 
   ContactFrame frame;
-  // A right-handed basis that depends smoothly on n but for n.z = 0 (Duff et al., JCGT 6, 2017).
-  const double sign = std::copysign(1.0, n.z()), u = -1.0 / (sign + n.z()), w = n.x() * n.y() * u;
-  frame.axes.col(0) = Vec3(1.0 + sign * n.x() * n.x() * u, sign * w, -sign * n.x());
-  frame.axes.col(1) = Vec3(w, sign + n.y() * n.y() * u, -n.y());
-  frame.axes.col(2) = n;
+  frame.axes = axes_along(n);
 
   // Across the normal: between the bodies, nearer to the smaller one. Along it: mid slab.
   const double share = a.radius / (a.radius + b.radius);

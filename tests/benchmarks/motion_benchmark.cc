@@ -1,12 +1,11 @@
-// Cost of one step of a settled box of random hulls, everything included, per touching pair and
-// step; and the share of each stage. Arguments: number of grains (800), steps timed (300).
-//   motion_benchmark 800 300
+// Cost of one step of a settled bed of Voronoi grains, everything included, per touching pair and
+// step, per grain and step; the share of each stage; one thread and two.
+//   motion_benchmark [grains (1000)] [steps timed (300)] [folder the bed is kept in]
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <random>
 
-#include "motion_scene.h"
+#include "settled_bed.h"
 
 using namespace trackbed::dem;
 
@@ -17,38 +16,6 @@ double now(int threads) {
   timespec t;
   clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
   return t.tv_sec + 1e-9 * t.tv_nsec;
-}
-
-Scene settled_box(int grains) {
-  const double size = .045, E = 2e7;
-  Scene s(E, .5);
-  std::mt19937 random(11);
-  const auto u = [&] { return random() / 2147483648. - 1; };
-  std::vector<int> shapes;
-  for (int k = 0; k < 40; ++k) {
-    std::vector<Vec3> points;
-    while (points.size() < 16) {
-      const Vec3 p(u(), .85 * u(), .7 * u());
-      if (p.norm() < 1 && p.norm() > .5) points.push_back(size / 2 * p);
-    }
-    shapes.push_back(s.shapes.add(make_grain_shape(convex_hull(points))));
-  }
-  const int row = std::max(3, static_cast<int>(std::cbrt(grains)));
-  const double cell = .8 * size;
-  for (int i = 0; i < grains; ++i) {
-    const Vec3 at(i % row + .5, i / row % row + .5, i / (row * row) + .5);
-    add_grain(s.bodies, s.shapes, shapes[i % shapes.size()], 0, 2600, cell * at,
-              turn_about({u(), u(), u()}, 3 * u()));
-  }
-  add_container(s.bodies, s.shapes, {0, 0, 0}, {row * cell, row * cell, 2 * row * cell}, .1, 0);
-  s.context.local_damping = .4;
-  s.context.threads = 1;
-  s.prepare();
-  s.context.dt = .5 * expected_limit(s.bodies, s.shapes, s.materials, {}).dt;
-  s.run(.25);
-  s.context.local_damping = .8;
-  s.run(.35);
-  return s;
 }
 
 void time_steps(Scene s, int threads, int steps) {
@@ -77,8 +44,9 @@ void time_steps(Scene s, int threads, int steps) {
     touched += count_contacts(s.pairs), near += s.pairs.size();
   }
   const double whole = motion + search + pairs + sums + ledger;
-  std::printf("%d thread%s: %7.3f us per touching pair and step (%.0f us per step)\n", threads,
-              threads > 1 ? "s" : " ", 1e6 * whole / touched, 1e6 * whole / steps);
+  std::printf("%d thread%s: %7.3f us per touching pair and step, %.3f per grain (%.0f us a step)\n",
+              threads, threads > 1 ? "s" : " ", 1e6 * whole / touched,
+              1e6 * whole / steps / s.bodies.grains, 1e6 * whole / steps);
   std::printf("  touching %.0f, looked at %.0f, candidates %.0f of %d grains; %ld searches\n",
               double(touched) / steps, double(woken) / steps, double(near) / steps, s.bodies.grains,
               s.candidates.state().rebuilds - rebuilds);
@@ -90,14 +58,16 @@ void time_steps(Scene s, int threads, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int grains = argc > 1 ? std::atoi(argv[1]) : 800,
-            steps = argc > 2 ? std::atoi(argv[2]) : 300;
+  BedSettings bed;
+  bed.grains = argc > 1 ? std::atoi(argv[1]) : 1000;
+  const int steps = argc > 2 ? std::atoi(argv[2]) : 300;
+  bed.folder = argc > 3 ? argv[3] : "";
   const double start = now(2);
-  const Scene s = settled_box(grains);
+  const Scene s = settled_bed(bed);
   const TimeStepLimit expected = expected_limit(s.bodies, s.shapes, s.materials, {}),
                       measured = measured_limit(s.bodies, s.pairs, 1);
-  std::printf("settled %d grains in %.1f s, kinetic energy %.2e J, coordination %.2f\n", grains,
-              now(2) - start, s.now().kinetic, 2. * count_contacts(s.pairs) / grains);
+  std::printf("settled %d grains in %.1f s, kinetic energy %.2e J, coordination %.2f\n", bed.grains,
+              now(2) - start, s.now().kinetic, 2. * count_contacts(s.pairs) / bed.grains);
   std::printf("limits of the step: expected %.3e s, measured %.3e s (grain %d, %d contacts)\n",
               expected.dt, measured.dt, measured.body, measured.contacts);
   for (const int threads : {1, 2}) time_steps(s, threads, steps);
