@@ -72,12 +72,12 @@ struct FrictionResult {
   double dissipated = 0;  ///< in this step: slip work + what a changing stiffness lost [J]
 };
 
-/// Advances `force` (on a) and `stiffness` (0 = contact is new). `n` unit normal, either sense;
-/// `normal_force` its size [N]; `area` [m2].
-inline FrictionResult advance_friction(const PairMaterial& m, const Vec3& n, double normal_force,
-                                       double area, const ContactSlip& slip, Vec3& force,
+/// Advances `force` (on a) and `stiffness` (0 = contact is new) to the tangential stiffness k [N/m].
+/// `n` unit normal, either sense; `normal_force` its size [N]; `friction` Coulomb's coefficient.
+inline FrictionResult advance_friction(double friction, double k, const Vec3& n,
+                                       double normal_force, const ContactSlip& slip, Vec3& force,
                                        double& stiffness) {
-  const double k = tangential_stiffness(m, area), k_old = stiffness;
+  const double k_old = stiffness;
   FrictionResult result;
   Vec3 old = Vec3::Zero();
   const double size2 = k_old > 0 ? force.squaredNorm() : 0;
@@ -92,7 +92,7 @@ inline FrictionResult advance_friction(const PairMaterial& m, const Vec3& n, dou
   // one on what the spring keeps.
   const double k_step = k < k_old ? k : (k_old + k) / 2;
   const Vec3 trial = k < k_old ? Vec3(k / k_old * old - k * du) : Vec3(old - k_step * du);
-  const double cap = m.friction * normal_force, size = trial.norm();
+  const double cap = friction * normal_force, size = trial.norm();
   force = trial;
   if (size > cap) {
     force *= cap / size;
@@ -109,6 +109,14 @@ inline FrictionResult advance_friction(const PairMaterial& m, const Vec3& n, dou
   stiffness = k;
   if (k > 0) result.stored = force.squaredNorm() / (2 * k);
   return result;
+}
+
+/// The same with k from the contact's area [m2].
+inline FrictionResult advance_friction(const PairMaterial& m, const Vec3& n, double normal_force,
+                                       double area, const ContactSlip& slip, Vec3& force,
+                                       double& stiffness) {
+  return advance_friction(m.friction, tangential_stiffness(m, area), n, normal_force, slip, force,
+                          stiffness);
 }
 
 }  // namespace trackbed::dem

@@ -85,6 +85,8 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     force += pairs.friction[p];
     pairs.friction_energy[p] = result.stored;
     pairs.friction_loss[p] = result.dissipated;
+  } else {
+    pairs.friction_energy[p] = pairs.friction_loss[p] = 0;  // others may add
   }
   pairs.touching[p] = 1;
   pairs.feature[p] = work.feature.code;

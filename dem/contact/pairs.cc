@@ -28,6 +28,12 @@ void Pairs::rearrange(const std::vector<int>& old) {
   });
 }
 
+void Pairs::keep_resistance() {
+  if (resists) return;
+  resists = true;
+  resize(size());
+}
+
 void Pairs::index_bodies(int bodies) {
   first.assign(bodies + 1, 0);
   for (int p = 0; p < size(); ++p) ++first[a[p] + 1], ++first[b[p] + 1];

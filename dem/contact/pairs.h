@@ -34,6 +34,12 @@ struct Pairs {
   std::vector<double> stiffness;        ///< normal [N/m]
   std::vector<double> tilt_stiffness;   ///< of the couple, largest over the tangents [N m]
 
+  // Moments against turning (resistance.h); empty unless `resists`.
+  bool resists = false;
+  std::vector<double> torsion, torsion_stiffness;  ///< on a, along axis [N m]; [N m/rad]
+  std::vector<Vec3> rolling;                       ///< on a [N m]
+  std::vector<double> rolling_stiffness;           ///< [N m/rad]
+
   // Which pairs belong to body i: incident[first[i] .. first[i+1]), ascending; an entry is the
   // pair's index p where i is a, and ~p where i is b. Follows from a, b (index_bodies).
   std::vector<int> first, incident;
@@ -45,6 +51,7 @@ struct Pairs {
   void resize(int pairs);  ///< new entries are zero
   /// New entry p takes over all of the old entry old[p], or zeros where that is -1.
   void rearrange(const std::vector<int>& old);
+  void keep_resistance();         ///< from here on with the moments against turning
   void index_bodies(int bodies);  ///< rebuilds first, incident
 };
 
@@ -64,6 +71,9 @@ void for_each_pair_array(P& p, F&& f) {
   f("friction_loss", p.friction_loss);
   f("area", p.area), f("depth", p.depth), f("stiffness", p.stiffness);
   f("tilt_stiffness", p.tilt_stiffness);
+  if (!p.resists) return;
+  f("torsion", p.torsion), f("torsion_stiffness", p.torsion_stiffness);
+  f("rolling", p.rolling), f("rolling_stiffness", p.rolling_stiffness);
 }
 
 template <class F>

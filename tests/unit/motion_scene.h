@@ -5,6 +5,7 @@
 
 #include "dem/contact/candidates.h"
 #include "dem/contact/pair_forces.h"
+#include "dem/contact/resistance.h"
 #include "dem/motion/energy.h"
 #include "dem/motion/time_step.h"
 #include "dem/surface/rigid.h"
@@ -18,6 +19,7 @@ struct Scene {
   Pairs pairs;
   Candidates candidates;
   PairForces forces;
+  ResistanceSettings resistance;
   StepContext context;
   Energies start;
   EnergyFlow flow;
@@ -36,6 +38,7 @@ struct Scene {
     StepContext c = context;
     c.dt = dt;
     forces.evaluate(bodies, shapes, materials, c, candidates.travel(), pairs);
+    if (resistance.any()) add_resistance(resistance, bodies, materials, c, pairs);
     sum_forces(pairs, c, bodies);
   }
   void prepare() {
