@@ -31,16 +31,17 @@ void print_library(const Scene& scene) {
   constexpr int most = 200;
   dem::LibraryParameters p = library_parameters(scene);
   const int all = p.count;
-  const double share = std::min(1.0, double(most) / all);
+  const double share = p.files.empty() ? std::min(1.0, double(most) / all) : 1;
   p.count = static_cast<int>(std::ceil(share * all));
   p.needles = static_cast<int>(std::floor(share * p.needles));
   p.flakes = static_cast<int>(std::floor(share * p.flakes));
   const dem::LibraryReport r = dem::library_report(dem::make_library(p));
+  std::printf("Shapes      %s", scene.grains.generator.c_str());
+  if (p.files.empty() && p.count < all) std::printf(", a sample of its %d", all);
   std::printf(
-      "Shapes      %d from %s; %s %d: sphericity %.3f, angularity %.3f, elongation %.3f, "
-      "flatness %.3f, %.0f faces\n",
-      all, scene.grains.generator.c_str(), p.count < all ? "of" : "all", p.count, r.sphericity.mean,
-      r.angularity.mean, r.elongation.mean, r.flatness.mean, r.faces.mean);
+      ": %d, sphericity %.3f, angularity %.3f, elongation %.3f, flatness %.3f, %.0f faces\n",
+      r.shapes, r.sphericity.mean, r.angularity.mean, r.elongation.mean, r.flatness.mean,
+      r.faces.mean);
   std::printf("            flakiness index %.1f %%, elongation index %.1f %% of the volume",
               r.indices.flaky, r.indices.elongated);
   const GradationScene& g = scene.gradation;

@@ -35,7 +35,7 @@ bool written_by_a_run(const std::string& name) {
         "compare.csv",     "compare.html",    "summary.csv",   "cost.csv",
         "cost.html",       "runs.csv",        "knobs.csv",     "tolerance.csv",
         "recommended.prm", "recommended.txt", "porosity.csv",  "sections.csv",
-        "library.csv"})
+        "library.csv",     "classes.csv"})
     if (name == file || name == file + std::string(".part")) return true;
   return starts_with(name, "structure_") || starts_with(name, "snapshots") ||
          ends_with(name, ".png");

@@ -87,6 +87,10 @@ void add_grains(Section s) {
            "jin_hull: standard deviation of ln(L/H)");
   s.integer("Divisions", "2", 1, 20, "jin_hull: parts of a box edge, N_d of Jin 2017");
   s.number("Least scale", "0.8", "-", 0.05, 10, "jin_hull: least factor of a node's radius, S_l");
+  s.text("Stones", "", "-",
+         "files: folder of OFF, OBJ or STL files of stones, from the scene's file; they make the "
+         "library, their size does not matter");
+  s.boolean("Hulls of stones", "false", "files: take the convex hull of stones that are dented");
   s.number("Largest scale", "1.2", "-", 0.05, 10, "jin_hull: largest factor of it, S_u");
   s.integer("Seed", "1", 0, 9.2e18, "of every random choice: the same seed gives the same packing");
   s.number("Density", "2600", "kg/m3", 1, 2e4, "of the rock (Shao 2017, Table 3)");

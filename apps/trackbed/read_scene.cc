@@ -47,6 +47,8 @@ GrainScene grains(const Values& v) {
   g.divisions = static_cast<int>(v.integer("Grains/Divisions"));
   g.least_scale = v.number("Grains/Least scale");
   g.largest_scale = v.number("Grains/Largest scale");
+  g.stones = v.text("Grains/Stones");
+  g.hull = v.boolean("Grains/Hulls of stones");
   g.seed = static_cast<std::uint64_t>(v.integer("Grains/Seed"));
   g.density = v.number("Grains/Density");
   g.friction = v.number("Grains/Friction");
@@ -177,12 +179,12 @@ OutputScene output(const Values& v) {
   return o;
 }
 
-/// Meshes are given relative to the scene's file; from here on they are absolute, so that
+/// Meshes and stones are given relative to the scene's file; from here on they are absolute, so that
 /// scene.resolved.prm can be run from anywhere.
 void make_absolute(std::vector<SceneEntry>& entries) {
   namespace fs = std::filesystem;
   for (auto& entry : entries)
-    if (entry.key == "Mesh" && !entry.value.empty() && fs::path(entry.value).is_relative()) {
+    if ((entry.key == "Mesh" || entry.key == "Stones") && !entry.value.empty() && fs::path(entry.value).is_relative()) {
       const auto folder = entry.line > 0 ? fs::path(entry.file).parent_path() : fs::path();
       entry.value = fs::absolute(folder / entry.value).lexically_normal().string();
     }

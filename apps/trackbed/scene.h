@@ -35,6 +35,8 @@ struct GrainScene {
   double length_over_height, length_over_height_deviation;  ///< jin_hull
   int divisions;                                            ///< jin_hull, N_d
   double least_scale, largest_scale;                        ///< jin_hull, S_l and S_u
+  std::string stones;                                       ///< files: the folder they are in
+  bool hull;                                                ///< files: hulls of dented stones
   std::uint64_t seed;
   double density;            ///< [kg/m3]
   double friction;           ///< grain on grain

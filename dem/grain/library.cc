@@ -6,6 +6,7 @@
 #include "dem/grading/rounded_sieve_size.h"
 #include "dem/grain/jin.h"
 #include "dem/grain/nearest_name.h"
+#include "dem/grain/off_io.h"
 #include "dem/grain/shape_targets.h"
 #include "dem/grain/voronoi.h"
 
@@ -35,6 +36,13 @@ std::vector<Polyhedron> generate(const LibraryParameters& p) {
       hulls.push_back(convex_hull(stone.vertices));
     return hulls;
   }
+  if (p.generator == "files") {
+    std::vector<Polyhedron> stones;
+    for (const std::string& file : p.files)
+      for (Polyhedron& stone : read_solids(file, {1, p.hull})) stones.push_back(std::move(stone));
+    if (stones.empty()) throw InputError("grain library: no files of stones are given");
+    return stones;
+  }
   throw InputError(unknown_name("grain generator", p.generator, generator_names()));
 }
 
@@ -62,7 +70,7 @@ void in_parallel(int n, const std::function<void(double)>& progress,
 }  // namespace
 
 const std::vector<std::string>& generator_names() {
-  static const std::vector<std::string> names = {"voronoi", "ellipsoid", "jin_hull"};
+  static const std::vector<std::string> names = {"voronoi", "ellipsoid", "jin_hull", "files"};
   return names;
 }
 
@@ -78,12 +86,13 @@ std::vector<GrainShape> size_grains(const std::vector<Polyhedron>& bodies, Sieve
 
 std::vector<GrainShape> make_library(const LibraryParameters& p,
                                      const std::function<void(double)>& progress) {
-  if (p.needles < 0 || p.flakes < 0 || p.needles + p.flakes > p.count)
+  std::vector<Polyhedron> bodies = generate(p);
+  const int count = static_cast<int>(bodies.size());
+  if (p.needles < 0 || p.flakes < 0 || p.needles + p.flakes > count)
     throw InputError("grain library: needles and flakes must be at most count together");
-  const std::vector<Polyhedron> bodies =
-      reach_targets(generate(p), {p.elongation, p.flatness, p.sphericity, p.angularity});
+  bodies = reach_targets(std::move(bodies), {p.elongation, p.flatness, p.sphericity, p.angularity});
   std::vector<GrainShape> shapes(bodies.size());
-  in_parallel(p.count, progress, [&](int i) {
+  in_parallel(count, progress, [&](int i) {
     Polyhedron body = bodies[i];
     if (i < p.needles)
       body = as_needle(body, p.method);

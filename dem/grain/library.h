@@ -24,6 +24,11 @@ struct LibraryParameters {
   double length_over_height = 1.6, length_over_height_deviation = 0.2;  ///< [-]
   int divisions = 2;                                                    ///< N_d [-]
   double least_scale = 0.8, largest_scale = 1.2;                        ///< S_l, S_u [-]
+  /// files: OFF, OBJ or STL files of stones (scanned ones, say), one or more in each; they make the
+  /// library, `count` and `seed` do not matter. Their size does not either. `hull`: see
+  /// SolidOptions.
+  std::vector<std::string> files;
+  bool hull = false;
   /// Targets for the library's means, see ShapeTargets; 0: as generated.
   double elongation = 0, flatness = 0, sphericity = 0, angularity = 0;
   /// So many of the shapes are stretched until they are needles, so many others pressed until they
@@ -32,12 +37,13 @@ struct LibraryParameters {
   SieveMethod method = SieveMethod::exact;  ///< the size that becomes 1 m
 };
 
-/// "voronoi", "ellipsoid", "jin_hull" (the convex hulls of Jin's stones).
+/// "voronoi", "ellipsoid", "jin_hull" (the convex hulls of Jin's stones), "files".
 const std::vector<std::string>& generator_names();
 
 /// Shapes of sieve size 1 m, the same for any number of threads. `progress` is told the share that
 /// is done (0 … 1), by one thread at a time. Throws InputError: unknown generator (with the nearest
-/// name), count < 1, targets out of range or out of reach, more needles and flakes than shapes.
+/// name), count < 1, targets out of range or out of reach, more needles and flakes than shapes;
+/// as read_solids.
 std::vector<GrainShape> make_library(const LibraryParameters&,
                                      const std::function<void(double share)>& progress = {});
 

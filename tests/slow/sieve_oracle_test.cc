@@ -15,7 +15,10 @@ void agrees(const std::vector<Polyhedron>& bodies) {
 #pragma omp parallel for schedule(dynamic)
   for (int k = 0; k < int(bodies.size()); ++k) {
     const ExactSieveSize s = exact_sieve_size(bodies[k]);
-    const double found = brute_force(bodies[k], 500 + k);
+    double found = brute_force(bodies[k], 500 + k);
+    // A random search may end in a dent beside the least one: it gets some more tries.
+    for (int more = 1; more < 5 && found > s.size * (1 + 1e-6); ++more)
+      found = std::min(found, brute_force(bodies[k], 500 + k + 10000 * more));
     EXPECT_GE(found, s.lower_bound * (1 - 1e-12)) << k;  // nothing below the bound
     EXPECT_LE(s.size, found * (1 + 2.5e-7)) << k;        // nothing better found
     EXPECT_GE(s.lower_bound, s.size * (1 - 1e-6)) << k;  // certified

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "dem/grain/clump_io.h"
+#include "dem/grain/library.h"
 #include "dem/grain/off_io.h"
 #include "tests/unit/grain_solids.h"
 
@@ -228,6 +229,21 @@ TEST_F(Files, ClumpsFromCsv) {
   bad("nan,2,3,4\n", "line 1: 'nan' is not a finite number");
   bad("1,2,3,0\n", "line 1: the radius must be positive");
   bad("x,y,z,r\n", "holds no sphere");
+}
+
+TEST_F(Files, StonesMakeALibrary) {
+  LibraryParameters p;
+  p.generator = "files";
+  EXPECT_THROW(make_library(p), InputError);
+  p.files = {file("box.off"), file("tetrahedron.off")};
+  write_off(p.files[0], make_box({62, 62, 100}));
+  write_off(p.files[1], solids::tetrahedron());
+  const auto library = make_library(p);
+  ASSERT_EQ(library.size(), 2u);
+  EXPECT_NEAR(library[0].volume, 100. / 62, 1e-6);  // of sieve size 1 m
+  EXPECT_NEAR(library[1].volume, 1 / 3., 1e-6);     // (1 / 6 sqrt2) / (1 / sqrt2)^3
+  p.needles = 3;
+  EXPECT_THROW(make_library(p), InputError);
 }
 
 }  // namespace

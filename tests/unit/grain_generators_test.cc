@@ -73,7 +73,7 @@ TEST(Random, BitsAreTheStandards) {
 }
 
 TEST(Library, ShapesAreSizedToOneAndProgressEnds) {
-  for (const std::string& generator : generator_names()) {
+  for (const char* generator : {"voronoi", "ellipsoid", "jin_hull"}) {
     LibraryParameters p;
     p.generator = generator;
     p.count = 20;

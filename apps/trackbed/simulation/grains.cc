@@ -1,11 +1,33 @@
 #include "apps/trackbed/simulation/grains.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
 
 namespace trackbed::apps {
 
 namespace {
+
+// In the order of their names, so that the library is the same everywhere.
+std::vector<std::string> stone_files(const Scene& s) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  if (s.grains.generator != "files") return files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(s.grains.stones, failed)) {
+    std::string kind = entry.path().extension().string();
+    for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (kind == ".off" || kind == ".obj" || kind == ".stl") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty())
+    throw InputError("Grains/Stones = " + s.grains.stones +
+                     ": is no folder that holds OFF, OBJ or STL files");
+  return files;
+}
 
 // Enough needles or flakes to draw a share [%] from without dealing the same few again and again.
 int special_shapes(double share, int library) {
@@ -17,8 +39,10 @@ int special_shapes(double share, int library) {
 dem::LibraryParameters library_parameters(const Scene& s) {
   const GrainScene& g = s.grains;
   dem::LibraryParameters p;
+  p.files = stone_files(s);
+  p.hull = g.hull;
   p.generator = g.generator;
-  p.count = g.library;
+  p.count = p.files.empty() ? g.library : static_cast<int>(p.files.size());
   p.seed = g.seed;
   p.method = dem::parse_sieve_method(g.sieve_method);
   p.elongation = g.elongation, p.flatness = g.flatness;

@@ -31,6 +31,26 @@ void write_gradation(const Run& run, const std::string& file) {
   csv.flush();
 }
 
+// Grains and mass of each class of the curve, the two open ones at its ends included.
+void write_classes(const Run& run, const std::string& file) {
+  const dem::Bodies& b = run.world.bodies;
+  const auto classes = dem::sieve_classes(gradation_curve(run.scene));
+  std::vector<int> count(classes.size(), 0);
+  std::vector<double> mass(classes.size(), 0.0);
+  double total = 0;
+  for (int i = 0; i < b.grains; ++i) {
+    const double size = run.world.shapes.shape(b.shape[i]).sieve_size;
+    std::size_t k = 0;  // sizes (low, high]; the last class takes the rest
+    while (k + 1 < classes.size() && size > classes[k].high) ++k;
+    ++count[k], mass[k] += b.mass[i], total += b.mass[i];
+  }
+  CsvWriter csv(file, {"low_m", "high_m", "target_percent", "achieved_percent", "grains"});
+  for (std::size_t k = 0; k < classes.size(); ++k)
+    csv.row({classes[k].low, classes[k].high, classes[k].percent,
+             total > 0 ? CsvCell(100 * mass[k] / total) : CsvCell(), count[k]});
+  csv.flush();
+}
+
 void write_grains(const Run& run, const std::string& file) {
   const dem::Bodies& b = run.world.bodies;
   CsvWriter csv(file, {"grain", "shape", "sieve_m", "volume_m3", "mass_kg", "largest_force_N"});
@@ -96,6 +116,7 @@ void write_summary(const Run& run, const std::string& file, double wall) {
 
 void write_results(const Run& run, const std::string& folder, double wall) {
   write_gradation(run, folder + "/gradation.csv");
+  write_classes(run, folder + "/classes.csv");
   write_measures(run, folder);
   write_grains(run, folder + "/grains.csv");
   write_timing(run, folder + "/timing.csv", wall);
