@@ -45,16 +45,19 @@ std::vector<FileGrain> read_grains(const SieveOptions& o) {
   std::vector<FileGrain> grains;
   for (const auto& file : o.grains) {
     const std::filesystem::path path(file);
-    const std::string stem = path.stem().string();
+    FileGrain grain;
+    grain.name = path.stem().string();
     if (path.extension() == ".csv") {
-      grains.push_back({stem, {}, dem::read_clump(file, unit)});
+      grain.clump = dem::read_clump(file, unit);
+      grains.push_back(grain);
       continue;
     }
     const auto solids = dem::read_solids(file, {unit, o.hull});
-    for (std::size_t k = 0; k < solids.size(); ++k)
-      grains.push_back({solids.size() > 1 ? stem + "#" + std::to_string(k + 1) : stem,
-                        {solids[k], unit * o.dilation},
-                        {}});
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+      if (solids.size() > 1) grain.name = path.stem().string() + "#" + std::to_string(k + 1);
+      grain.solid = {solids[k], unit * o.dilation};
+      grains.push_back(grain);
+    }
   }
   return grains;
 }
