@@ -11,6 +11,7 @@ motion_test(motion_pile hard)
 motion_test(motion_impacts hard)
 motion_test(pairs_friction unit)
 motion_test(pairs_resistance unit)
+motion_test(motion_damping unit)
 motion_test(pairs_candidates unit)
 
 add_library(settled_bed STATIC ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/settled_bed.cc)
@@ -19,3 +20,7 @@ target_include_directories(settled_bed PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/benchm
 target_link_libraries(settled_bed PUBLIC trackbed_dem)
 add_executable(motion_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/motion_benchmark.cc)
 target_link_libraries(motion_benchmark PRIVATE settled_bed)
+
+# The bed of the benchmarks, in tests.
+trackbed_test(bed_threads hard settled_bed)
+motion_test(bed_quiet slow)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/error.h"
 #include "dem/contact/friction.h"
 
 namespace trackbed::dem {
@@ -118,6 +119,33 @@ TimeStepLimit expected_limit(const Bodies& b, const ShapeTable& shapes, const Pa
       worst = limit_of(i, omega2, static_cast<int>(std::ceil(expect.contacts)));
   }
   return worst;
+}
+
+double rule_of_thumb(const std::string& rule, const Bodies& b, const ShapeTable& shapes,
+                     const PairMaterials& m, const ContactExpectation& expect) {
+  if (rule != "sun2015" && rule != "rayleigh")
+    throw InputError("there is no time step rule '" + rule +
+                     "'; the rules are 'sun2015', 'rayleigh'");
+  double dt = HUGE_VAL, lightest = HUGE_VAL;
+  for (int i = 0; i < b.grains; ++i) {
+    if (b.freedom[i] == kFixed) continue;
+    double modulus = 0;
+    for (int j = 0; j < m.materials(); ++j)
+      if (m(b.material[i], j).modulus > modulus) modulus = m(b.material[i], j).modulus;
+    const GrainShape& shape = shapes.shape(b.shape[i]);
+    if (rule == "rayleigh") {
+      constexpr double nu = 0.3;
+      const double r = std::cbrt(0.75 * shape.volume / M_PI), rho = b.mass[i] / shape.volume;
+      const double shear = modulus / (2 * (1 + nu));
+      dt = std::min(dt, M_PI * r * std::sqrt(rho / shear) / (0.1631 * nu + 0.8766));
+    } else if (b.mass[i] < lightest) {
+      lightest = b.mass[i];
+      const double k =
+          kShaoFactor * modulus * std::sqrt(expect.area_share * largest_face(shape.body));
+      dt = 2 * M_PI * std::sqrt(lightest / k) / 40;
+    }
+  }
+  return dt;
 }
 
 TimeStepLimit measured_limit(const Bodies& b, const Pairs& pairs, int threads) {

@@ -8,6 +8,8 @@
 // other body is held; K_c = k_n n n^T + k_t (I - n n^T), and Pairs::tilt_stiffness about the
 // tangents. Translation, rotation and friction in one.
 #pragma once
+#include <string>
+
 #include "dem/contact/pair_forces.h"
 
 namespace trackbed::dem {
@@ -31,6 +33,18 @@ struct ContactExpectation {
 /// bounding radius, kappa the tangential ratio when there is friction. Held bodies do not count.
 TimeStepLimit expected_limit(const Bodies&, const ShapeTable&, const PairMaterials&,
                              const ContactExpectation&);
+
+/// Rules of the field, by name; none is a limit: compare with one.
+///   sun2015   T_min/40, T_min = 2 pi sqrt(m/k) of the lightest grain (Sun et al. 2015, Eq. 12), k
+///   of
+///             its own as in expected_limit
+///   rayleigh  the time a Rayleigh wave takes over the smallest grain, pi r sqrt(rho/G)/(0.1631 nu
+///   +
+///             0.8766), r of the sphere of its volume, nu 0.3, G = E/(2(1+nu)) of the contact
+///             modulus
+/// Throws InputError naming the rules for any other name.
+double rule_of_thumb(const std::string& rule, const Bodies&, const ShapeTable&,
+                     const PairMaterials&, const ContactExpectation& = {});
 
 /// From the contacts of the last evaluation, by the bound above.
 TimeStepLimit measured_limit(const Bodies&, const Pairs&, int threads);

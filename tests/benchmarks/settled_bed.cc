@@ -40,14 +40,14 @@ void settle(Scene& s, double modulus, double friction, double damping, double ti
   s.prepare();
   s.context.dt = .4 * expected_limit(s.bodies, s.shapes, s.materials, {}).dt;
   s.run(s.time + time);
-    std::fprintf(stderr, "E %g t %g dt %g KE %g touching %d\n", modulus, s.time, s.context.dt,
-                 s.now().kinetic, count_contacts(s.pairs));
+  std::fprintf(stderr, "E %g t %g dt %g KE %g touching %d\n", modulus, s.time, s.context.dt,
+               s.now().kinetic, count_contacts(s.pairs));
 }
 
 // Grains only, loose, in a periodic column as high as wide once settled.
-Scene loose_bed(const BedSettings& b) {
+Scene loose_grains(int count) {
   Scene s(2e7, .1);
-  const std::vector<GrainShape> grains = ballast(b.grains);
+  const std::vector<GrainShape> grains = ballast(count);
   double volume = 0;
   std::vector<double> radii;
   for (const GrainShape& g : grains) volume += g.volume, radii.push_back(g.radius);
@@ -56,7 +56,7 @@ Scene loose_bed(const BedSettings& b) {
   PlacementSpace space;
   space.low = Vec3::Zero(), space.high = Vec3(width, width, width), space.period = s.context.period;
   const Placement at = place_loose(radii, space, {}, 40, 5);
-  for (int i = 0; i < b.grains; ++i)
+  for (int i = 0; i < count; ++i)
     add_grain(s.bodies, s.shapes, s.shapes.add(grains[i]), 0, kDensity, at.centre[i], at.turn[i]);
   lower_grains(s.bodies, s.shapes, 0, 0, s.context.period, 1e-4);
   return s;
@@ -103,8 +103,14 @@ bool read_places(Scene& s, const std::string& name) {
 
 }  // namespace
 
+Scene loose_bed(int grains) {
+  Scene s = loose_grains(grains);
+  add_base(s);
+  return s;
+}
+
 Scene settled_bed(const BedSettings& b) {
-  Scene s = loose_bed(b);
+  Scene s = loose_grains(b.grains);
   const bool kept = !b.folder.empty() && read_places(s, file_name(b));
   add_base(s);
   s.context.threads = b.threads;

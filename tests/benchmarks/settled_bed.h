@@ -15,6 +15,9 @@ struct BedSettings {
   std::string folder;     ///< where a bed is kept; empty: nowhere
 };
 
+/// Grains let down until they almost touch, on a base, soft (E 2e7 Pa, friction 0.1): a bed to be.
+Scene loose_bed(int grains);
+
 /// Loose grains let down, settled soft, then with the final constants until quiet. About a minute
 /// for 1000 grains; read from the folder if it is there. `settings.modulus` is in the scene.
 Scene settled_bed(const BedSettings&);

@@ -6,6 +6,7 @@
 #include "dem/contact/candidates.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/resistance.h"
+#include "dem/motion/adaptive_damping.h"
 #include "dem/motion/energy.h"
 #include "dem/motion/time_step.h"
 #include "dem/surface/rigid.h"
@@ -20,6 +21,8 @@ struct Scene {
   Candidates candidates;
   PairForces forces;
   ResistanceSettings resistance;
+  bool adaptive = false;  ///< Shao's damping
+  AdaptiveDamping adaptive_damping;
   StepContext context;
   Energies start;
   EnergyFlow flow;
@@ -54,6 +57,7 @@ struct Scene {
     candidates.update(bodies, shapes, context, pairs);
     evaluate(context.dt);
     work += kick(bodies, context);
+    if (adaptive) flow.local_damping += damp(adaptive_damping, bodies, context);
     flow.applied += work.applied, flow.prescribed += work.prescribed;
     flow.local_damping += work.local_damping;
     if (forces.friction) flow.friction += friction_loss(pairs, context.threads);
