@@ -91,8 +91,14 @@ class SceneTest(unittest.TestCase):
                     self.assertNotIn(cell.lower(), ("nan", "inf", "-nan", "-inf"), f"{file} {key}")
         self.assertLess(float(self.summary(run)["closure"]), 0.01)
         for name in ("scene.resolved.prm", "snapshots.h5", "snapshots.xdmf", "checkpoint.h5", "gradation.csv",
-                     "grains.csv", "timing.csv", "history.csv", "energy.csv", "cycles.csv"):
+                     "grains.csv", "timing.csv", "history.csv", "energy.csv", "cycles.csv", "porosity.csv",
+                     "sections.csv", "library.csv", "classes.csv"):
             self.assertTrue((run / name).stat().st_size > 0, name)
+        # Layers of equal thickness make up the whole; classes and layers lose no grain.
+        whole, *layers = rows(run / "porosity.csv")
+        self.assertAlmostEqual(float(whole["porosity"]), sum(float(r["porosity"]) for r in layers) / len(layers), 9)
+        self.assertEqual(int(whole["grains"]), sum(int(r["grains"]) for r in layers))
+        self.assertEqual(len(rows(run / "grains.csv")), sum(int(r["grains"]) for r in rows(run / "classes.csv")))
 
     def assert_same(self, one, other, names=None):
         files = names or sorted(p.name for p in one.iterdir()
