@@ -2,82 +2,11 @@
 // energy, and the limit of a stiff structure.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "coupling_scene.h"
+#include "two_masses.h"
 
 namespace trackbed::coupling {
 namespace {
-
-// Masses 1 (grain) and 2, ground spring 3 on the second, contact spring 4: a unit cube lies flat
-// on the structure, pressed by a load, and moves up and down only. Face on face the contact force
-// is 4 x depth to (depth/1)^4.
-constexpr double kDepth = .01, kOmega = 2.56699322;
-constexpr int kStates = 8;
-using State = Eigen::Matrix<double, kStates, 1>;
-
-Exchange exchange(const char* schedule, int grain_steps = 1) {
-  Exchange e;
-  e.schedule = schedule_named(schedule);
-  e.grain_steps = grain_steps;
-  e.tolerance = 1e-13;
-  return e;
-}
-
-// One exchange of the real code on (x, v, F/m of the grain; u, v, a of the structure; the force it
-// was given last and the impulse it is owed), taken from the state of balance.
-State one_exchange(const State& s, double dt, const Exchange& e) {
-  World w;
-  w.exchange = e;
-  set_materials(w, 4 / .7522527780636751, 0);
-  add_grain(w, dem::make_box({1, 1, 1}), 1, {0, 0, .5}, Quat::Identity(), dem::kMoveZ);
-  auto owned = std::make_unique<MassOnSpring>(2., 3., 2., e.schedule == Schedule::both_explicit);
-  MassOnSpring& structure = *owned;
-  w.surfaces.push_back(make_surface("mass", 0, .1, 0, Vec3::Zero(), std::move(owned)));
-  Surface& surface = w.surfaces[0];
-  set_step(w, dt);
-  const dem::StepContext c = context(dt, Vec3::Zero());
-  const double load = 4 * kDepth;
-  w.bodies.applied_force[0] = Vec3(0, 0, -load);
-  const double sunk = load / 3;
-  w.bodies.x[0].z() = .5 - sunk - kDepth + s[0];
-  structure.u = -sunk + s[3];
-  for (int i = 0; i < surface.patch.carried; ++i) surface.patch.node[i].z() = structure.u;
-  dem::StepContext still = c;
-  still.dt = 0;
-  prepare(w, still);
-  w.bodies.v[0].z() = s[1];
-  w.bodies.force[0].z() = load + s[2];
-  structure.v = s[4], structure.a = s[5];
-  for (int i = 0; i < 4; ++i) {
-    surface.last_force[i] = Vec3(0, 0, -(load + s[2]) / 4);
-    surface.given[i] = Vec3(0, 0, -(load + s[6]) / 4);
-    surface.owed[i] = surface.owed_before[i] = Vec3(0, 0, -s[7] / 4);
-  }
-  advance(w, c, [](World&, double) {});
-  double given = 0, owed = 0;
-  for (int i = 0; i < 4; ++i) given -= surface.given[i].z(), owed -= surface.owed[i].z();
-  State next;
-  next << w.bodies.x[0].z() - (.5 - sunk - kDepth), w.bodies.v[0].z(), w.bodies.force[0].z() - load,
-      structure.u + sunk, structure.v, structure.a, given - load, owed;
-  return next;
-}
-
-// Per grain step at W = omega dt.
-double growth(double W, const Exchange& e) {
-  Eigen::Matrix<double, kStates, kStates> map;
-  const double h = 1e-5;
-  for (int k = 0; k < kStates; ++k)
-    map.col(k) = (one_exchange(h * State::Unit(k), W / kOmega, e) -
-                  one_exchange(-h * State::Unit(k), W / kOmega, e)) /
-                 (2 * h);
-  const int used = e.grain_steps > 1 ? kStates : kStates - 2;
-  const double largest = Eigen::EigenSolver<Eigen::MatrixXd>(map.topLeftCorner(used, used))
-                             .eigenvalues()
-                             .cwiseAbs()
-                             .maxCoeff();
-  return std::pow(largest, 1. / e.grain_steps) - 1;
-}
 
 TEST(TwoMasses, growth_with_a_predicted_surface) {
   EXPECT_NEAR(growth(.1, exchange("predicted")), 8.4e-8, .2e-8);

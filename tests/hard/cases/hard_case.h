@@ -1,0 +1,56 @@
+// Hard cases: each is a function of shape, law, step and exchange schedule that measures one number
+// against its bound. gtest runs one setting of each, the command hard_cases all of them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dem/grain/polyhedron.h"
+
+namespace trackbed::hard {
+
+struct Setting {
+  std::string shape = "cube";
+  std::string law = "stored_energy";
+  double share = 0.05;  ///< time step over the stability limit
+  std::string schedule = "predicted";
+  int grain_steps = 1;  ///< per exchange
+};
+
+struct Measured {
+  double value = 0, bound = 0;  ///< must be value <= bound
+  bool judged = true;           ///< else only reported: the bound is not promised here
+};
+
+/// What of a setting a case depends on.
+enum class Over { flat_shapes, shapes, schedules };
+
+struct Case {
+  std::string name, must, unit, damping;
+  Over over;
+  bool shares;  ///< does the step matter?
+  bool slow;
+  Measured (*run)(const Setting&);
+};
+
+const std::vector<Case>& impact_cases();
+const std::vector<Case>& rest_cases();
+const std::vector<Case>& step_cases();
+const std::vector<Case>& coupled_cases();
+
+/// All of them, in the order of the page.
+std::vector<Case> all_cases();
+
+/// The settings a case runs over; the first is that of the quick test.
+std::vector<Setting> settings(const Case&);
+
+/// "cube", "plate" 1:1:0.1, "needle" 1:0.05:0.05, "tetrahedron", "voronoi", of about edge or width
+/// `size` [m]; the first three stand on a flat face.
+dem::Polyhedron solid(const std::string& name, double size);
+
+/// Steps of at most this share of the limit carry the promises on energy.
+inline constexpr double kPromisedShare = 0.05;
+inline bool conservative(const Setting& s) {
+  return s.law != "shao2017" && s.share <= kPromisedShare;
+}
+
+}  // namespace trackbed::hard

@@ -1,0 +1,184 @@
+// Impacts and starts that break codes. No damping, no gravity.
+#include "base/error.h"
+#include "dem/motion/monitor.h"
+#include "hard_case.h"
+#include "motion_scene.h"
+
+namespace trackbed::hard {
+namespace {
+
+using dem::Quat;
+using dem::Scene;
+using dem::Vec3;
+
+constexpr double kSize = .1, kModulus = 1e8;
+
+int add(Scene& s, const std::string& shape, double size, double rho, const Vec3& x, const Quat& q) {
+  const dem::GrainShape g = dem::make_grain_shape(solid(shape, size));
+  return dem::add_grain(s.bodies, s.shapes, s.shapes.add(g), 0, rho, x, q * g.turn);
+}
+
+// Just above the floor, turned, thrown at it.
+Scene thrown(const Setting& set, double scale, double mu, const Vec3& v) {
+  Scene s(kModulus, mu, set.law);
+  s.context.gravity.setZero();
+  const Quat turned = dem::turn_about({1, 2, .5}, .9);
+  const int body = add(s, set.shape, scale * kSize, 2600, Vec3::Zero(), turned);
+  double low = 0;
+  for (const Vec3& p : s.shapes.shape(s.bodies.shape[body]).body.vertices)
+    low = std::min(low, (s.bodies.R[body] * p).z());
+  s.bodies.x[body].z() = -low + 1e-3 * scale * kSize;
+  s.add_floor(20 * scale * kSize, 5 * scale * kSize);
+  s.bodies.v[body] = v;
+  s.prepare();
+  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
+  return s;
+}
+
+// Until it has left, or some thousand steps.
+bool collide(Scene& s) {
+  bool touched = false;
+  for (int k = 0, away = 0; k < 20000 && away < 200; ++k) {
+    s.step();
+    const bool now = dem::count_contacts(s.pairs) > 0;
+    touched |= now;
+    away = touched && !now ? away + 1 : 0;
+  }
+  return touched;
+}
+
+Measured grazing(const Setting& set) {
+  double most = -1;
+  for (const double mu : {0., .5, 2.})
+    for (const double degrees : {0., 30., 60., 80., 89.}) {
+      const double a = degrees * M_PI / 180;
+      Scene s = thrown(set, 1, mu, 2 * Vec3(std::sin(a), 0, -std::cos(a)));
+      const double before = s.now().total();
+      if (!collide(s)) return {HUGE_VAL, 1e-3};
+      most = std::max(most, s.now().kinetic / before - 1);
+    }
+  return {most, 1e-3, conservative(set)};
+}
+
+Measured overlapping_start(const Setting& set) {
+  Scene s(kModulus, .5, set.law);
+  s.context.gravity.setZero();
+  add(s, set.shape, kSize, 2600, Vec3::Zero(), Quat::Identity());
+  const int b = add(s, set.shape, kSize, 2600, {0, 0, 0}, dem::turn_about({1, 1, 3}, .3));
+  // Apart along z until a tenth of the smaller height is left inside.
+  double high = 0, low = 0;
+  for (const Vec3& p : s.shapes.shape(0).body.vertices)
+    high = std::max(high, (s.bodies.R[0] * p).z());
+  for (const Vec3& p : s.shapes.shape(1).body.vertices)
+    low = std::min(low, (s.bodies.R[b] * p).z());
+  s.bodies.x[b] = Vec3(0, 0, .9 * (high - low));
+  s.prepare();
+  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
+  const double stored = s.start.normal;
+  if (!(stored > 0)) return {HUGE_VAL, 1e-3};
+  collide(s);
+  return {s.now().kinetic / stored - 1, 1e-3, conservative(set)};
+}
+
+// 4 mm thin, 30 m/s: stopped, or the run is refused. 1 if it came out on the other side unseen.
+Measured tunnelling(const Setting& set) {
+  Scene s(kModulus, .5, set.law);
+  s.context.gravity.setZero();
+  const double thickness = .004, scale = set.shape == "plate"  ? .04
+                                         : set.shape == "cube" ? .004
+                                                               : .08;
+  add(s, set.shape, scale, 2600, {0, 0, thickness}, Quat::Identity());
+  dem::add_box(s.bodies, s.shapes, {-1, -1, -thickness}, {1, 1, 0}, 0, 1, dem::kFixed);
+  s.bodies.v[0].z() = -30;
+  s.prepare();
+  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
+  try {
+    for (int k = 0; k < 4000 && std::abs(s.bodies.x[0].z()) < .1; ++k) {
+      s.step();
+      dem::check_state(s.bodies, s.shapes, s.pairs, s.context, k);
+    }
+  } catch (const RunError&) {
+    return {0, 0};
+  }
+  return {s.bodies.v[0].z() < 0 ? 1. : 0., 0};
+}
+
+Measured lengths(const Setting& set) {
+  Vec3 place = Vec3::Zero();
+  double worst = 0;
+  for (const double scale : {1., 1e-9, 1e6}) {
+    Scene s = thrown(set, scale, .5, {.5, 0, -2});
+    for (int k = 0; k < 3000; ++k) s.step();
+    if (scale == 1) place = s.bodies.x[0];
+    worst = std::max(worst, (s.bodies.x[0] / scale - place).norm() / place.norm());
+  }
+  return {worst, 1e-10};
+}
+
+// Masses 1:10^4, the chip between a heavy grain and the floor.
+Measured mass_ratio(const Setting& set) {
+  Scene s(5e10, .5, set.law);
+  s.context.gravity.setZero();
+  const double small = .01, large = small * std::cbrt(1e4);
+  const auto height = [&](double size) {
+    double low = 0, high = 0;
+    for (const Vec3& p : solid(set.shape, size).vertices)
+      low = std::min(low, p.z()), high = std::max(high, p.z());
+    return high - low;
+  };
+  add(s, set.shape, small, 2600, {0, 0, .5 * height(small)}, Quat::Identity());
+  add(s, set.shape, large, 2600, {0, 0, height(small) + .5 * height(large)}, Quat::Identity());
+  s.add_floor(2, 1);
+  s.bodies.v[1].z() = -.05;
+  s.candidates = dem::Candidates({.001, true});
+  s.prepare();
+  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
+  double deepest = 0;
+  for (int k = 0; k < 12000; ++k) {
+    s.step();
+    if (k % 10 == 0)
+      for (int p = 0; p < s.pairs.size(); ++p)
+        if (s.pairs.touching[p]) deepest = std::max(deepest, s.pairs.depth[p]);
+  }
+  return {deepest / height(small), .05};
+}
+
+// Moduli 1:10^6: the soft one against a hard floor.
+Measured stiffness_ratio(const Setting& set) {
+  Scene s = thrown(set, 1, .3, {.1, 0, -.2});
+  dem::PairMaterial m = s.materials(0, 0);
+  s.materials = dem::PairMaterials(2);
+  m.modulus = kModulus;
+  s.materials.set(0, 0, m);
+  m.modulus = dem::mixed_modulus(kModulus, 1e6 * kModulus);
+  s.materials.set(0, 1, m), s.materials.set(1, 0, m);
+  m.modulus = 1e6 * kModulus;
+  s.materials.set(1, 1, m);
+  s.bodies.material[1] = 1;
+  s.prepare();
+  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
+  const double before = s.now().total();
+  if (!collide(s)) return {HUGE_VAL, 1e-3};
+  return {s.now().kinetic / before - 1, 1e-3, conservative(set)};
+}
+
+}  // namespace
+
+const std::vector<Case>& impact_cases() {
+  static const std::vector<Case> cases{
+      {"grazing impact, 0 to 89 degrees, friction 0 to 2", "no kinetic energy is gained",
+       "share of the energy before", "none", Over::shapes, true, false, grazing},
+      {"overlapping start", "leaves with no more than was stored", "excess over stored energy",
+       "none", Over::shapes, true, false, overlapping_start},
+      {"tunnelling: 4 mm at 30 m/s", "met, or the run is refused", "1 = passed unseen", "none",
+       Over::flat_shapes, true, false, tunnelling},
+      {"lengths times 1e-9 to 1e6", "the same dimensionless motion", "relative difference", "none",
+       Over::shapes, false, false, lengths},
+      {"mass 1:10^4", "the chip's penetration stays small", "share of its height", "none",
+       Over::flat_shapes, true, false, mass_ratio},
+      {"stiffness 1:10^6", "no kinetic energy is gained", "share of the energy before", "none",
+       Over::shapes, true, false, stiffness_ratio}};
+  return cases;
+}
+
+}  // namespace trackbed::hard

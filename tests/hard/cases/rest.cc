@@ -1,0 +1,161 @@
+// Face on face, at rest, held on a path. Bodies that stand on a flat face.
+#include "hard_case.h"
+#include "motion_scene.h"
+
+namespace trackbed::hard {
+namespace {
+
+using dem::Quat;
+using dem::Scene;
+using dem::Vec3;
+
+constexpr double kSize = .1, kModulus = 1e8;
+
+double height(const std::string& shape) {
+  double high = 0;
+  for (const Vec3& p : solid(shape, kSize).vertices) high = std::max(high, 2 * p.z());
+  return high;
+}
+
+// Flat on the floor, sunk in by `depth`, turned by `tilt` about y through its centre.
+Scene flat(const Setting& set, double mu, double depth, double tilt = 0,
+           std::uint8_t freedom = dem::kFree, double base = 2) {
+  Scene s(kModulus, mu, set.law);
+  const dem::GrainShape g = dem::make_grain_shape(solid(set.shape, kSize));
+  dem::add_grain(s.bodies, s.shapes, s.shapes.add(g), 0, 2600,
+                 {0, 0, .5 * height(set.shape) - depth}, dem::turn_about({0, 1, 0}, tilt) * g.turn,
+                 freedom);
+  s.add_floor(base, 1);
+  s.prepare();
+  return s;
+}
+
+// Force grows in proportion to depth, face on face: the depth that carries the weight.
+Scene balanced(const Setting& set, std::uint8_t freedom = dem::kFree) {
+  const double trial = 1e-6 * kSize;
+  Scene s = flat(set, .5, trial);
+  const double weight = 9.81 * s.bodies.mass[0];
+  Scene at_rest = flat(set, .5, trial * weight / s.bodies.force[0].z(), 0, freedom);
+  at_rest.context.dt = set.share * dem::measured_limit(at_rest.bodies, at_rest.pairs, 1).dt;
+  return at_rest;
+}
+
+// In tilts from 1e-14 to 1e-8 rad a face stays a face: its force is that of no tilt.
+Measured tilt(const Setting& set) {
+  const double depth = 1e-4 * kSize, upright = flat(set, .5, depth).bodies.force[0].z();
+  double worst = 0;
+  for (double angle = 1e-14; angle < 2e-8; angle *= 10)
+    worst =
+        std::max(worst, std::abs(flat(set, .5, depth, angle).bodies.force[0].z() / upright - 1));
+  return {worst, 1e-6};
+}
+
+Measured at_rest(const Setting& set) {
+  Scene s = balanced(set);
+  s.context.local_damping = .5;
+  for (int k = 0; k < 5000; ++k) s.step();
+  return {s.bodies.v[0].norm(), 1e-10};
+}
+
+Measured drift_of_tilt(const Setting& set) {
+  Scene s = balanced(set);
+  for (int k = 0; k < 5000; ++k) s.step();
+  return {std::acos(std::min(1., s.bodies.R[0].cwiseAbs().colwise().maxCoeff().minCoeff())), 1e-7};
+}
+
+Measured base_size(const Setting& set) {
+  const double depth = 1e-5 * kSize;
+  const double small = flat(set, 0, depth, 0, dem::kFree, 1).bodies.force[0].z();
+  const double large = flat(set, 0, depth, 0, dem::kFree, 100).bodies.force[0].z();
+  return {std::abs(large / small - 1), 1e-8};
+}
+
+// Comes down face on and goes up again: it touches once and leaves once.
+Measured toggles(const Setting& set) {
+  Scene s = flat(set, .5, -1e-9);
+  s.context.gravity.setZero();
+  s.bodies.v[0].z() = -1e-3;
+  s.prepare();
+  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
+  int changes = 0;
+  bool touching = false;
+  for (int k = 0; k < 20000 && !(changes >= 2 && s.bodies.x[0].z() > .5 * height(set.shape) + 1e-6);
+       ++k) {
+    s.step();
+    const bool now = dem::count_contacts(s.pairs) > 0;
+    changes += now != touching;
+    touching = now;
+  }
+  return {changes < 2 ? HUGE_VAL : changes, 2};
+}
+
+// Held over the end of its base, so that the contact's area changes, on a circle in x and z:
+// trapezoidal sums of a smooth periodic force converge faster than any power of their number.
+Measured closed_path(const Setting& set) {
+  Scene s = flat(set, 0, 1e-3 * kSize, 0, dem::kFree, .45 * kSize);
+  const double r = 3e-4 * kSize, x = .3 * kSize, z = s.bodies.x[0].z();
+  const int n = 128;
+  double work = 0, stored = 0;
+  for (int k = 0; k < n; ++k) {
+    const double a = 2 * M_PI * k / n;
+    s.bodies.x[0] = {x + 100 * r * std::cos(a), 0, z + r * std::sin(a)};
+    s.prepare();
+    work += s.bodies.force[0].dot(Vec3(-100 * std::sin(a), 0, std::cos(a))) * r * 2 * M_PI / n;
+    // Half of force times depth: what a face on a face stores.
+    stored = std::max(stored, .5 * s.bodies.force[0].z() * (1e-3 * kSize - r * std::sin(a)));
+  }
+  return {std::abs(work) / stored, 1e-10, set.law != "shao2017"};
+}
+
+// A sticking pair turned as one rigid body, body and floor, by 360 degrees about a slanted axis.
+Measured turned_pair(const Setting& set) {
+  Scene s = flat(set, 10, 1e-3 * kSize);
+  dem::Bodies& b = s.bodies;
+  const double slide = 1e-5 * kSize;
+  s.context.dt = 1;
+  const auto step = [&] {
+    s.candidates.update(b, s.shapes, s.context, s.pairs);
+    s.evaluate(1);
+  };
+  b.x[0].x() += slide, b.v[0] = {slide, 0, 0};  // friction is loaded
+  step();
+  const Vec3 before = b.force[0];
+  const int steps = 4000;
+  const Vec3 turn = 2 * M_PI / steps * Vec3(1, 2, 3).normalized();
+  const Quat q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  for (int k = 0; k < steps; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 old = b.x[i];
+      b.x[i] = q * old;
+      b.q[i] = (q * b.q[i]).normalized();
+      b.R[i] = b.q[i].toRotationMatrix();
+      b.v[i] = b.x[i] - old;
+      b.turn[i] = turn;
+    }
+    step();
+  }
+  return {(b.force[0] - before).norm() / before.head<2>().norm(), 1e-8};
+}
+
+}  // namespace
+
+const std::vector<Case>& rest_cases() {
+  static const std::vector<Case> cases{
+      {"face on face, tilt 1e-14 to 1e-8", "the force of no tilt", "relative difference", "none",
+       Over::flat_shapes, false, false, tilt},
+      {"block at rest", "stays at rest", "m/s", "local, 0.5", Over::flat_shapes, true, false,
+       at_rest},
+      {"block at rest, undamped", "does not tilt", "rad", "none", Over::flat_shapes, true, false,
+       drift_of_tilt},
+      {"small block on a base of 2 or 200 m", "penetration does not depend on the base",
+       "relative difference", "none", Over::flat_shapes, false, false, base_size},
+      {"nearly touching, coming and going", "touches once, leaves once", "changes", "none",
+       Over::flat_shapes, true, false, toggles},
+      {"closed path of a held grain", "no work", "share of the stored energy", "none",
+       Over::flat_shapes, false, false, closed_path},
+      {"stuck pair turned by 360 degrees", "the force turns along", "share of the sideways force",
+       "none", Over::flat_shapes, false, false, turned_pair}};
+  return cases;
+}
+
+}  // namespace trackbed::hard

@@ -1,0 +1,51 @@
+#include "dem/contact/pair_forces.h"
+#include "dem/grain/voronoi.h"
+#include "hard_case.h"
+
+namespace trackbed::hard {
+
+dem::Polyhedron solid(const std::string& name, double size) {
+  using dem::Vec3;
+  if (name == "cube") return dem::make_box({size, size, size});
+  if (name == "plate") return dem::make_box({size, size, .1 * size});
+  if (name == "needle") return dem::make_box({size, .05 * size, .05 * size});
+  if (name == "tetrahedron")
+    return dem::convex_hull({Vec3(1, 1, 1) * size / 2, Vec3(1, -1, -1) * size / 2,
+                             Vec3(-1, 1, -1) * size / 2, Vec3(-1, -1, 1) * size / 2});
+  dem::VoronoiParameters v;
+  v.count = 5;
+  dem::Polyhedron body = dem::voronoi_grains(v)[2];
+  for (Vec3& p : body.vertices) p *= size;
+  return body;
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> all;
+  for (const auto& list : {impact_cases(), rest_cases(), step_cases(), coupled_cases()})
+    all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+std::vector<Setting> settings(const Case& c) {
+  std::vector<Setting> list;
+  const std::vector<double> shares =
+      c.shares ? std::vector<double>{.05, .2, .5, .9} : std::vector<double>{.05};
+  if (c.over == Over::schedules) {
+    for (const double share : shares) {
+      list.push_back({"cube", "stored_energy", share, "predicted", 1});
+      for (const char* name : {"explicit", "iterated", "lagged"})
+        list.push_back({"cube", "stored_energy", share, name, 1});
+      for (const int n : {2, 5, 10, 30, 100})
+        list.push_back({"cube", "stored_energy", share, "several_steps", n});
+    }
+    return list;
+  }
+  std::vector<std::string> shapes{"cube", "plate", "needle"};
+  if (c.over == Over::shapes) shapes.insert(shapes.end(), {"tetrahedron", "voronoi"});
+  for (const auto& shape : shapes)
+    for (const auto& law : dem::pair_law_names())
+      for (const double share : shares) list.push_back({shape, law, share, "", 1});
+  return list;
+}
+
+}  // namespace trackbed::hard

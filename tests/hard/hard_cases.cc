@@ -1,0 +1,98 @@
+// hard_cases DIR [--slow] [--only WORDS]: every hard case over shapes, laws, step shares and
+// schedules; DIR/hard_cases.csv and the stability map DIR/map.csv. Exit 1 if a promise is broken.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "cases/hard_case.h"
+#include "two_masses.h"
+
+namespace trackbed::hard {
+namespace {
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+const char* verdict(const Measured& m) {
+  if (!m.judged) return "reported";
+  return m.value <= m.bound ? "holds" : "BROKEN";
+}
+
+// Rows of the table; returns how many promises are broken.
+int run_cases(const std::string& file, bool slow, const std::string& only) {
+  std::ofstream out(file);
+  out << "case,must_hold,damping,shape,law,step_share,schedule,grain_steps,measured,bound,unit,"
+         "verdict,wall_s\n";
+  out.precision(6);
+  int broken = 0;
+  for (const Case& c : all_cases()) {
+    if ((c.slow && !slow) || c.name.find(only) == std::string::npos) continue;
+    int done = 0, failed = 0;
+    for (const Setting& s : settings(c)) {
+      const auto begun = std::chrono::steady_clock::now();
+      const Measured m = c.run(s);
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
+      const double value = std::isfinite(m.value) ? m.value : 1e300;
+      out << quoted(c.name) << ',' << quoted(c.must) << ',' << quoted(c.damping) << ',' << s.shape
+          << ',' << s.law << ',' << s.share << ',' << s.schedule << ',' << s.grain_steps << ','
+          << value << ',' << m.bound << ',' << quoted(c.unit) << ',' << verdict(m) << ','
+          << wall.count() << '\n';
+      ++done, failed += m.judged && !(m.value <= m.bound);
+    }
+    out.flush();
+    std::fprintf(stderr, "%-52s %3d settings, %d broken\n", c.name.c_str(), done, failed);
+    broken += failed;
+  }
+  return broken;
+}
+
+// Growth per step of two masses: half of omega dt, contact over ground stiffness, sub-cycling.
+void write_map(const std::string& file) {
+  std::ofstream out(file);
+  out << "schedule,grain_steps,step_share,stiffness_ratio,mass,growth\n";
+  out.precision(10);
+  const auto row = [&](const char* schedule, int n) {
+    for (const double ratio : {1e-2, 1e-1, 1., 1e1, 1e2, 1e3, 1e4})
+      for (const double share : {.01, .02, .05, .1, .2, .3, .5, .7, .9}) {
+        coupling::TwoMasses m;
+        m.contact = ratio * m.ground;
+        double growth = 1e300;
+        try {
+          growth = coupling::growth(2 * share, coupling::exchange(schedule, n), m);
+        } catch (const std::exception&) {  // refused, or not converged
+        }
+        out << schedule << ',' << n << ',' << share << ',' << ratio << ',' << m.mass << ','
+            << (std::isfinite(growth) ? growth : 1e300) << '\n';
+      }
+  };
+  row("predicted", 1), row("explicit", 1), row("lagged", 1);
+  for (const int n : {2, 5, 10, 20}) row("several_steps", n);
+}
+
+}  // namespace
+}  // namespace trackbed::hard
+
+int main(int argc, char** argv) {
+  bool slow = false;
+  std::string folder, only;
+  for (int k = 1; k < argc; ++k) {
+    if (!std::strcmp(argv[k], "--slow"))
+      slow = true;
+    else if (!std::strcmp(argv[k], "--only") && k + 1 < argc)
+      only = argv[++k];
+    else
+      folder = argv[k];
+  }
+  if (folder.empty()) {
+    std::fprintf(stderr, "hard_cases DIR [--slow] [--only WORDS]: a folder is needed\n");
+    return 2;
+  }
+  std::filesystem::create_directories(folder);
+  const int broken = trackbed::hard::run_cases(folder + "/hard_cases.csv", slow, only);
+  trackbed::hard::write_map(folder + "/map.csv");
+  std::printf("%d promises broken; %s/hard_cases.csv, %s/map.csv\n", broken, folder.c_str(),
+              folder.c_str());
+  return broken > 0;
+}
