@@ -55,7 +55,7 @@ Measured resultants(const Setting& set) {
       World w = thrown_at_block(set, cells, c);
       for (int k = 0; k < 200 && count_contacts(w) == 0; ++k) run(w, c, 1);
       run(w, c, 5);
-      if (count_contacts(w) == 0) return {HUGE_VAL, 1e-13};
+      if (count_contacts(w) == 0) return {NAN, 1e-13, false};  // bounced within an exchange
       Vec3 sum = w.bodies.force[0];
       for (int i = 0; i < w.surfaces[0].patch.carried; ++i) sum += w.surfaces[0].patch.force[i];
       worst = std::max(worst, sum.norm() / w.bodies.force[0].norm());

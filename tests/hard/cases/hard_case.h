@@ -17,7 +17,7 @@ struct Setting {
 };
 
 struct Measured {
-  double value = 0, bound = 0;  ///< must be value <= bound
+  double value = 0, bound = 0;  ///< must be value <= bound; NaN: does not apply to this setting
   bool judged = true;           ///< else only reported: the bound is not promised here
 };
 

@@ -60,18 +60,28 @@ Measured grazing(const Setting& set) {
   return {most, 1e-3, conservative(set)};
 }
 
+// Middle of the highest (sign 1) or lowest (-1) corners, from the body's centre.
+Vec3 end_of(const Scene& s, int body, double sign) {
+  const dem::Polyhedron& solid = s.shapes.shape(s.bodies.shape[body]).body;
+  double most = -HUGE_VAL;
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (const Vec3& p : solid.vertices) most = std::max(most, sign * (s.bodies.R[body] * p).z());
+  for (const Vec3& p : solid.vertices) {
+    const Vec3 turned = s.bodies.R[body] * p;
+    if (sign * turned.z() > most - 1e-9 * kSize) sum += turned, ++count;
+  }
+  return sum / count;
+}
+
 Measured overlapping_start(const Setting& set) {
   Scene s(kModulus, .5, set.law);
+  if (!s.forces.stores_energy) return {NAN, 1e-3, false};
   s.context.gravity.setZero();
   add(s, set.shape, kSize, 2600, Vec3::Zero(), Quat::Identity());
-  const int b = add(s, set.shape, kSize, 2600, {0, 0, 0}, dem::turn_about({1, 1, 3}, .3));
-  // Apart along z until a tenth of the smaller height is left inside.
-  double high = 0, low = 0;
-  for (const Vec3& p : s.shapes.shape(0).body.vertices)
-    high = std::max(high, (s.bodies.R[0] * p).z());
-  for (const Vec3& p : s.shapes.shape(1).body.vertices)
-    low = std::min(low, (s.bodies.R[b] * p).z());
-  s.bodies.x[b] = Vec3(0, 0, .9 * (high - low));
+  const int b = add(s, set.shape, kSize, 2600, Vec3::Zero(), dem::turn_about({0, 0, 1}, .3));
+  const Vec3 top = end_of(s, 0, 1), bottom = end_of(s, b, -1);
+  s.bodies.x[b] = top - bottom - Vec3(0, 0, .1 * (top.z() - bottom.z()));
   s.prepare();
   s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
   const double stored = s.start.normal;

@@ -1,0 +1,175 @@
+"""The stability page: hard_cases.py DIR. Reads DIR/hard_cases.csv and DIR/map.csv (tests/hard/run.sh), writes
+DIR/stability.html and PNGs."""
+import os
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+import page  # noqa: E402
+import style  # noqa: E402
+from read_run import read_table  # noqa: E402
+from report import attempt  # noqa: E402
+from style import number  # noqa: E402
+
+COLOUR = {"holds": style.MOSS, "BROKEN": style.RUST, "reported": style.QUIET}
+
+
+def setting(table, k):
+    words = [str(table[name][k]) for name in ("shape", "law") if table["schedule"][k] == ""]
+    if table["schedule"][k] != "":
+        words = [str(table["schedule"][k]) + (f" {int(table['grain_steps'][k])}" if table["grain_steps"][k] > 1 else "")]
+    return ", ".join(words)
+
+
+def margin(value, bound):
+    """Bound over what was measured; infinite where nothing was measured above zero."""
+    return np.inf if value <= 0 else bound / value
+
+
+def case_rows(table):
+    """A line a case: judged settings, the worst of them, what was reported besides."""
+    rows = []
+    for name in dict.fromkeys(table["case"]):
+        at = [k for k in range(table.rows) if table["case"][k] == name]
+        judged = [k for k in at if table["verdict"][k] != "reported"]
+        worst = max(judged, key=lambda k: table["measured"][k], default=None)
+        told = max((k for k in at if k not in judged), key=lambda k: table["measured"][k], default=None)
+        broken = sum(table["verdict"][k] == "BROKEN" for k in at)
+        cells = [name, table["must_hold"][at[0]], table["damping"][at[0]], f"{len(judged) - broken} of {len(judged)}"]
+        if worst is None:
+            cells += ["–", "–", "–"]
+        else:
+            value, bound = table["measured"][worst], table["bound"][worst]
+            cells += [f"{number(value, 2)} ({setting(table, worst)}, {number(table['step_share'][worst])})",
+                      f"{number(bound, 2)} {table['unit'][worst]}", number(margin(value, bound), 2)]
+        cells.append("–" if told is None else
+                     f"{number(table['measured'][told], 2)} ({setting(table, told)}, {number(table['step_share'][told])})")
+        rows.append(cells)
+    return rows
+
+
+def margins(table):
+    """Every setting of every case: what was measured over its bound."""
+    names = list(dict.fromkeys(table["case"]))
+    figure, axes = plt.subplots(figsize=(style.COLUMN[0] * 1.5, 0.8 + 0.3 * len(names)))
+    for kind, colour in COLOUR.items():
+        keep = [k for k in range(table.rows) if table["verdict"][k] == kind]
+        ratio = [np.clip(min(table["measured"][k], 1e200) / table["bound"][k], 1e-9, 1e9) if table["bound"][k] > 0
+                 else (1e-9 if table["measured"][k] <= 0 else 1e9) for k in keep]
+        place = [len(names) - 1 - names.index(table["case"][k]) for k in keep]
+        axes.plot(ratio, place, "o", ms=4, color=colour, alpha=0.6, label=kind.lower(), lw=0)
+    axes.axvline(1, color=style.INK, lw=1)
+    axes.set_xscale("log")
+    axes.set_yticks(range(len(names)), list(reversed(names)))
+    axes.set_xlabel("measured over its bound")
+    axes.legend(loc="lower right")
+    return figure, ("What was measured over its bound, every setting; left of the line holds. Grey: reported only, the "
+                    "bound is not promised there (a law that is not conservative, a step above 0.05 of the limit, a "
+                    "lagged exchange). Values beyond the axis stand at its ends.")
+
+
+def theory(schedule, share, ratio, mass, ground=3.0):
+    """Growth per step of the linear system by the schedule's own recurrence, written here anew: grain x, v, F and
+    structure u, w, a (Newmark 1/4, 1/2 or Verlet); F = -c (x - u*), u* the surface that the grain feels."""
+    c = ratio * ground
+    k = np.array([[c, -c / mass ** 0.5], [-c / mass ** 0.5, (c + ground) / mass]])
+    dt = 2 * share / np.linalg.eigvalsh(k).max() ** 0.5
+    columns = []
+    for x, v, f, u, w, a in np.eye(6):
+        end = u + dt * w + 0.5 * dt * dt * a
+        x1 = x + dt * v + 0.5 * dt * dt * f
+        f1 = -c * (x1 - (u if schedule == "lagged" else end))
+        if schedule == "explicit":
+            u1, a1 = end, (-f1 - ground * end) / mass
+        else:
+            a1 = (-f1 - ground * (u + dt * w + 0.25 * dt * dt * a)) / (mass + ground * dt * dt / 4)
+            u1 = u + dt * w + 0.25 * dt * dt * (a + a1)
+        columns.append([x1, v + 0.5 * dt * (f + f1), f1, u1, w + 0.5 * dt * (a + a1), a1])
+    return float(np.abs(np.linalg.eigvals(np.array(columns).T)).max()) - 1
+
+
+def stability_map(table):
+    """Growth per step over step and stiffness ratio, a panel for each schedule."""
+    kinds = list(dict.fromkeys(zip(table["schedule"], table["grain_steps"])))
+    figure, axes = plt.subplots(2, (len(kinds) + 1) // 2, figsize=(style.COLUMN[0] * 1.7, 5.4), sharex=True, sharey=True)
+    shares, ratios = np.unique(table["step_share"]), np.unique(table["stiffness_ratio"])
+    picture = None
+    for panel, (schedule, n) in zip(axes.flat, kinds):
+        keep = (table["schedule"] == schedule) & (table["grain_steps"] == n)
+        grid = np.full((len(ratios), len(shares)), np.nan)
+        for share, ratio, growth in zip(*(table[c][keep] for c in ("step_share", "stiffness_ratio", "growth"))):
+            grid[np.searchsorted(ratios, ratio), np.searchsorted(shares, share)] = growth
+        shown = np.log10(np.clip(grid, 1e-9, 1))
+        # Cells of the same size in logarithms: pcolormesh halves gaps linearly on a log axis.
+        picture = panel.pcolormesh(np.log10(shares), np.log10(ratios), shown, cmap=style.STRESS, vmin=-9, vmax=0,
+                                   shading="nearest")
+        refused = np.argwhere(grid >= 1e200)
+        panel.plot(np.log10(shares[refused[:, 1]]), np.log10(ratios[refused[:, 0]]), "x", color=style.INK, ms=4)
+        panel.set_xticks(np.log10([0.01, 0.1, 0.5]), ["0.01", "0.1", "0.5"])
+        panel.set_yticks(np.log10(ratios), [f"10{int(round(e)):d}".replace("10", "1e") for e in np.log10(ratios)])
+        panel.grid(False)
+        panel.set_title(f"{schedule}{f', {int(n)} steps' if n > 1 else ''}")
+        if n > 1:
+            panel.axvline(np.log10(1 / n), color=style.RUST, lw=1.2)
+    for panel in list(axes.flat)[len(kinds):]:
+        panel.axis("off")
+    figure.supxlabel("step over the coupled limit, ω Δt / 2", fontsize=9)
+    figure.supylabel("contact stiffness over ground stiffness", fontsize=9)
+    figure.colorbar(picture, ax=axes, label="log10 of the growth per step")
+    return figure, ("Growth of the amplitude per grain step of a grain (1) pressed on a structure (2, spring 3 to the "
+                    "ground), by the program's own code; crosses: refused. Rust line: n ω Δt = 2, beyond which several "
+                    "grain steps an exchange are unstable in theory.")
+
+
+def theory_rows(table):
+    """Measured growth against the recurrence for the schedules of one step."""
+    rows = []
+    for schedule in ("predicted", "explicit", "lagged"):
+        keep = np.flatnonzero((table["schedule"] == schedule) & (table["growth"] < 1e200))
+        gaps = [abs(table["growth"][k] - theory(schedule, table["step_share"][k], table["stiffness_ratio"][k],
+                                                table["mass"][k])) for k in keep]
+        if gaps:
+            rows.append((schedule, len(gaps), number(max(gaps), 2),
+                         number(float(table["growth"][keep].max()), 2)))
+    return rows
+
+
+def build(folder):
+    style.use()
+    cases = read_table(os.path.join(folder, "hard_cases.csv"))
+    grid = read_table(os.path.join(folder, "map.csv"))
+    broken = int((cases["verdict"] == "BROKEN").sum())
+    parts = [page.paragraph(f"{cases.rows} settings of {len(set(cases['case']))} cases; "
+                            f"{broken} promise{'s' if broken != 1 else ''} broken.", "note")]
+    parts.append(page.section("Cases", page.table(
+        ["case", "must hold", "damping", "holds", "worst (shape, law, step share)", "bound", "margin",
+         "largest of those only reported"], case_rows(cases), numeric=(3, 6))))
+    shown = []
+    for name, title, make, table in (("stability_margins", "Margins", margins, cases),
+                                     ("stability_map", "Stability map", stability_map, grid)):
+        made, why = attempt(make, table)
+        if made is None:
+            shown.append(page.missing(title, why))
+            continue
+        path = os.path.join(folder, name + ".png")
+        style.save(made[0], path)
+        shown.append(page.figure(path, made[1], "wide"))
+    parts.append(page.section("Pictures", *shown))
+    parts.append(page.section("Map against theory", page.table(
+        ["schedule", "points", "largest difference of the growth from the linear recurrence", "largest growth"],
+        theory_rows(grid), numeric=(1, 2, 3))))
+    out = os.path.join(folder, "stability.html")
+    page.write(out, "What stability means", "Trackbed: hard cases and limits", parts,
+               "hard_cases.csv holds every setting, map.csv the map.")
+    return out
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
+        print("hard_cases: the folder of tests/hard/run.sh is needed", file=sys.stderr)
+        sys.exit(2)
+    print(build(sys.argv[1]))
