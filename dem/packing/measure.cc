@@ -24,16 +24,20 @@ std::vector<Vec3> images(const PlacedGrain& g, const Vec3& period, const Measure
 }
 
 double cut_volume(const PlacedGrain& g, const Vec3& x, const MeasuredRegion& r) {
-  if (g.spheres) {
+  if (!g.outline->spheres.empty()) {
     std::vector<Sphere> placed;
-    for (const Sphere& s : *g.spheres) placed.push_back({x + g.R * s.centre, s.radius});
+    for (const Sphere& s : g.outline->spheres) placed.push_back({x + g.R * s.centre, s.radius});
     return volume_inside(placed, r);
   }
+  double whole = 0, part = 0;
   std::vector<Vec3> vertices;
-  for (const Vec3& v : g.body->vertices) vertices.push_back(x + g.R * v);
-  // An outline that is but near carries the grain's true volume.
-  const double whole = mass_properties(*g.body).volume;
-  return volume_inside(vertices, g.body->faces, r) * (g.volume / whole);
+  for (const Polyhedron& body : g.outline->bodies) {
+    vertices.clear();
+    for (const Vec3& v : body.vertices) vertices.push_back(x + g.R * v);
+    part += volume_inside(vertices, body.faces, r);
+    whole += mass_properties(body).volume;
+  }
+  return part * (g.volume / whole);  // an outline that is but near carries the true volume
 }
 
 double inside(const PlacedGrain& g, const Vec3& period, const MeasuredRegion& r) {
@@ -52,13 +56,19 @@ bool centre_in(const PlacedGrain& g, const Vec3& period, const MeasuredRegion& r
   return false;
 }
 
+std::shared_ptr<const GrainOutline> outline_of(const GrainShape& s) {
+  auto outline = std::make_shared<GrainOutline>();
+  outline->bodies.push_back(s.body);
+  return outline;
+}
+
 }  // namespace
 
 std::vector<PlacedGrain> placed_grains(const Bodies& b, const ShapeTable& shapes) {
   std::vector<PlacedGrain> grains(b.grains);
   for (int i = 0; i < b.grains; ++i) {
     const GrainShape& s = shapes.shape(b.shape[i]);
-    grains[i].body = &s.body;
+    grains[i].outline = outline_of(s);
     grains[i].x = b.x[i], grains[i].R = b.R[i];
     grains[i].radius = s.radius, grains[i].volume = s.volume;
     grains[i].density = b.mass[i] / s.volume;

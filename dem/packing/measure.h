@@ -1,5 +1,6 @@
 // Density, porosity and coordination number of any part of a packing, and its profile by layers.
 #pragma once
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -10,14 +11,20 @@
 
 namespace trackbed::dem {
 
-/// A grain where it stands. A view: what it points to must outlive it.
+/// What a grain is made of, body frame: convex polyhedra that do not overlap, or the union of
+/// spheres.
+struct GrainOutline {
+  std::vector<Polyhedron> bodies;
+  std::vector<Sphere> spheres;
+};
+
+/// A grain where it stands.
 struct PlacedGrain {
-  const Polyhedron* body = nullptr;              ///< or
-  const std::vector<Sphere>* spheres = nullptr;  ///< (one of the two), in the body's frame
+  std::shared_ptr<const GrainOutline> outline;
   Vec3 x = Vec3::Zero();
   Mat3 R = Mat3::Identity();
   double radius = 0;   ///< of a ball about x that holds it [m]
-  double volume = 0;   ///< exact, also where `body` is but near (rounded_outline) [m3]
+  double volume = 0;   ///< exact, also where the outline is but near (rounded_outline) [m3]
   double density = 0;  ///< [kg/m3]
 };
 

@@ -41,20 +41,19 @@ std::vector<Vec2> disc_outline(const Vec2& centre, double radius) {
 
 void add_pieces(const PlacedGrain& g, int grain, const Vec3& x, const CuttingPlane& plane,
                 std::vector<SectionPiece>& pieces) {
-  if (g.spheres) {
-    for (const Sphere& s : *g.spheres) {
-      const Vec3 c = x + g.R * s.centre;
-      const double d = plane.position - c[plane.axis];
-      if (std::abs(d) < s.radius)
-        pieces.push_back({grain, disc_outline(in_picture(c, plane.axis),
-                                              std::sqrt((s.radius - d) * (s.radius + d)))});
-    }
-    return;
+  for (const Sphere& s : g.outline->spheres) {
+    const Vec3 c = x + g.R * s.centre;
+    const double d = plane.position - c[plane.axis];
+    if (std::abs(d) < s.radius)
+      pieces.push_back({grain, disc_outline(in_picture(c, plane.axis),
+                                            std::sqrt((s.radius - d) * (s.radius + d)))});
   }
-  std::vector<Vec3> at;
-  for (const Vec3& v : g.body->vertices) at.push_back(x + g.R * v);
-  std::vector<Vec2> outline = cut(*g.body, at, plane);
-  if (outline.size() >= 3) pieces.push_back({grain, std::move(outline)});
+  for (const Polyhedron& body : g.outline->bodies) {
+    std::vector<Vec3> at;
+    for (const Vec3& v : body.vertices) at.push_back(x + g.R * v);
+    std::vector<Vec2> outline = cut(body, at, plane);
+    if (outline.size() >= 3) pieces.push_back({grain, std::move(outline)});
+  }
 }
 
 }  // namespace

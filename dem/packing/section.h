@@ -13,13 +13,14 @@ struct CuttingPlane {
   double position = 0;  ///< [m]
 };
 
-/// Of one grain (or an image of it): a closed outline [m]; a clump has one per sphere, overlapping.
+/// Of one grain (or an image of it): a closed outline [m]; a clump has one per sphere, overlapping,
+/// a grain of several polyhedra one of each.
 struct SectionPiece {
   int grain = 0;
   std::vector<Vec2> outline;
 };
 
-/// Outlines of all convex grains and clumps in the plane; discs as polygons of 48 corners.
+/// Outlines of all grains in the plane; discs as polygons of 48 corners.
 std::vector<SectionPiece> section(const std::vector<PlacedGrain>&, const Vec3& period,
                                   const CuttingPlane&);
 

@@ -21,6 +21,12 @@ std::vector<GrainShape> stones(int count) {
   return make_library(p);
 }
 
+PlacedGrain of_bodies(std::vector<Polyhedron> bodies) {
+  PlacedGrain g;
+  g.outline = std::make_shared<GrainOutline>(GrainOutline{std::move(bodies), {}});
+  return g;
+}
+
 Quat any_turn(Random& random) {
   return Quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
               random.uniform(-1, 1))
@@ -155,9 +161,8 @@ TEST(VolumeInside, DilatedGrainByItsOutline) {
   // A cube of edge 1 dilated by r, above the height t over its top face, in closed form.
   for (double r : {0.1, 0.5}) {
     const DilatedPolyhedron cube = {make_box({1, 1, 1}), r};
-    const Polyhedron outline = rounded_outline(cube.core, r);
-    PlacedGrain g;
-    g.body = &outline, g.radius = 2, g.volume = dilated_volume(cube);
+    PlacedGrain g = of_bodies({rounded_outline(cube.core, r)});
+    g.radius = 2, g.volume = dilated_volume(cube);
     for (double t : {-0.3, 0.0, 0.4}) {  // share of r
       const double h = t * r;
       const auto disc = [&](double s) {  // integral of sqrt(r2 - s2)
@@ -183,8 +188,8 @@ struct Lattice {
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         for (int k = 0; k < n; ++k) {
-          PlacedGrain g;
-          g.body = &cube.body, g.x = Vec3(i + 0.5, j + 0.5, k + 0.5);
+          PlacedGrain g = of_bodies({cube.body});
+          g.x = Vec3(i + 0.5, j + 0.5, k + 0.5);
           g.radius = cube.radius, g.volume = 1, g.density = 2600;
           const int me = int(grains.size());
           if (i > 0) contacts.emplace_back(me - n * n, me);
@@ -240,8 +245,8 @@ TEST(Section, AreasIntegrateToTheVolume) {
   // Simpson's rule is exact between the heights of the corners only; many cuts come close.
   Random random(11);
   for (const GrainShape& shape : stones(3)) {
-    PlacedGrain g;
-    g.body = &shape.body, g.radius = shape.radius, g.volume = shape.volume;
+    PlacedGrain g = of_bodies({shape.body});
+    g.radius = shape.radius, g.volume = shape.volume;
     g.R = any_turn(random).toRotationMatrix();
     for (int axis = 0; axis < 3; ++axis) {
       double sum = 0;
@@ -261,9 +266,9 @@ TEST(Section, CubesAndDiscs) {
   const auto pieces = section(l.grains, Vec3::Zero(), {2, 0.5});
   ASSERT_EQ(pieces.size(), 4u);
   for (const SectionPiece& p : pieces) EXPECT_NEAR(area(p.outline), 1, 1e-15);
-  const std::vector<Sphere> ball = {{Vec3::Zero(), 1}};
   PlacedGrain g;
-  g.spheres = &ball, g.radius = 1;
+  g.outline = std::make_shared<GrainOutline>(GrainOutline{{}, {{Vec3::Zero(), 1}}});
+  g.radius = 1;
   const auto discs = section({g}, Vec3::Zero(), {0, 0.6});
   ASSERT_EQ(discs.size(), 1u);
   for (const Vec2& p : discs[0].outline) EXPECT_NEAR(p.norm(), 0.8, 1e-15);
