@@ -131,6 +131,40 @@ def pictures(run, folder, width=None):
     return page.section("The bed at a load maximum", page.grid(*parts))
 
 
+# summary.csv: how near a quantity came to its limit, and where the limit stands.
+LIMITS = [("time step share", None, 1.0, "time step, of the measured stability limit"),
+          ("largest overlap", "Contact/Largest overlap", None, "depth over the smaller grain's size"),
+          ("closure", "Numerics/Closure", None, "energy not accounted for, over the work put in")]
+
+
+def limits(run):
+    """How near the run came to its limits; what passed one is marked."""
+    table, why = attempt(run.table, "summary.csv")
+    if table is None:
+        return page.section("How near to the limits", page.missing("The table of limits", why))
+    values = {str(name): value for name, value in zip(table["quantity"], table["value"])}
+    given, rows = run.parameters, []
+
+    def number_of(text):
+        try:
+            return float(text)
+        except (TypeError, ValueError):
+            return float("nan")
+
+    def row(words, value, limit):
+        share = value / limit if limit else float("nan")
+        says = "–" if share != share else "PASSED" if share > 1 else f"{number(100 * share, 2)} % of it"
+        rows.append((words, number(value), number(limit), says))
+
+    for name, path, fixed, words in LIMITS:
+        row(words, number_of(values.get(name)), fixed if fixed else number_of(given.get(path)))
+    created, _ = attempt(lambda: max(0.0, float(measures.finite(measures.closure(run)[1], "closure").max())))
+    if created is not None:
+        row("of that, energy created", created, number_of(given.get("Numerics/Closure")))
+    return page.section("How near to the limits",
+                        page.table(["", "reached", "limit", "how near"], rows, numeric=(1, 2)))
+
+
 def effects(run):
     table, why = attempt(run.table, "summary.csv")
     if table is None:
@@ -193,6 +227,7 @@ def build(folder, with_pictures=True, width=None):
             _, why = attempt(style.save, made[0], path)
             shown.append(page.figure(path, made[1]) if why is None else page.missing(label, why))
         parts.append(page.section(title, page.grid(*shown)))
+    parts.append(limits(run))
     parts.append(effects(run))
     parts.append(caution(run))
     out = os.path.join(folder, "report.html")

@@ -608,6 +608,19 @@ class Report(Folder):
         self.assertIn('class="card bad"', text)
         self.assertIn("OUTSIDE the tolerance", text)
 
+    def test_limits_say_how_near_and_what_was_passed(self):
+        folder = self.copy()
+        write_csv(os.path.join(folder, "summary.csv"), ["quantity", "value", "unit", "meaning"],
+                  [("time step share", "0.4", "-", ""), ("largest overlap", "0.3", "-", ""),
+                   ("closure", "0.001", "-", "")])
+        with open(os.path.join(folder, "scene.resolved.prm"), "w") as file:
+            file.write("subsection Contact\n set Largest overlap = 0.2\nend\n"
+                       "subsection Numerics\n set Closure = 0.01\nend\n")
+        text = report.limits(read_run.Run(folder))
+        self.assertIn("40 % of it", text)
+        self.assertIn("10 % of it", text)
+        self.assertEqual(text.count("PASSED"), 1)
+
     def test_text_is_escaped(self):
         folder = self.copy()
         write_csv(os.path.join(folder, "summary.csv"), ["quantity", "value", "unit", "meaning"],
