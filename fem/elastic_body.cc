@@ -4,13 +4,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "fem/assembly.h"
+#include "fem/body_model.h"
 #include "fem/frequencies.h"
-#include "fem/grid.h"
-#include "fem/load_patch.h"
 #include "fem/output.h"
-#include "fem/supports.h"
-#include "fem/surface.h"
 #include "fem/text.h"
 
 namespace trackbed::fem {
@@ -22,29 +18,9 @@ struct Totals {
 
 double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-const ElasticBodyParameters& checked(const ElasticBodyParameters& p) {
-  if (p.order != 1 && p.order != 2)
-    throw InputError(text(p.name, ": element order ", p.order, ", allowed are 1 and 2"));
-  if (p.materials.empty()) throw InputError(p.name + ": no material given");
-  return p;
-}
-
-bool lumped(const ElasticBodyParameters& p, const Discretisation& body, const Unknowns& unknowns) {
-  for (const Bed& bed : p.beds) find_boundary(body, p.name, "bed", bed.boundary);
-  if (p.mass == Mass::automatic) return free_motion(body, unknowns, p.beds).empty();
-  return p.mass == Mass::lumped;
-}
-
 }  // namespace
 
-struct ElasticBody::Parts {
-  ElasticBodyParameters p;
-  Grid grid;
-  Discretisation body;
-  Unknowns unknowns;
-  Assembled assembled;
-  ContactSurface surface;
-  std::vector<LoadPatch> patches;
+struct ElasticBody::Parts : BodyModel {
   Stepper stepper;
 
   Motion motion;
@@ -53,82 +29,19 @@ struct ElasticBody::Parts {
   Totals totals;
   // Work space of a step.
   std::vector<double> force, u_before, product;
-  std::vector<Vec> moved;
-
-  static Discretisation make(const ElasticBodyParameters& p, Grid& grid) {
-    make_cells(p, grid);
-    return discretise(grid);
-  }
 
   explicit Parts(ElasticBodyParameters given)
-      : p(std::move(given)),
-        grid(checked(p).order),
-        body(make(p, grid)),
-        unknowns(number_unknowns(body, p.name, p.supports)),
-        assembled(assemble(p, grid, body, unknowns, lumped(p, body, unknowns))),
-        surface(contact_surface(body, unknowns, p.name, p.contact)),
+      : BodyModel(std::move(given)),
         stepper(assembled.matrices, p.newmark ? newmark() : generalised_alpha(p.rho_inf)) {
-    for (const Load& l : p.loads) patches.push_back(load_patch(body, p.name, l));
     for (auto* field : {&motion.u, &motion.v, &motion.a, &motion.f, &force, &u_before})
       field->assign(unknowns.count, 0.);
     load.assign(patches.size(), 0.);
     load_before = load;
     surface_before.assign(surface.node.size(), Vec{});
-    moved = surface_before;
-  }
-
-  const Matrices& matrices() const { return assembled.matrices; }
-
-  Vec at(const std::vector<double>& field, int node) const {
-    Vec value{};
-    for (int d = 0; d < 3; ++d)
-      if (const int i = unknowns.of_node[node][d]; i >= 0) value[d] = field[i];
-    return value;
-  }
-  std::vector<Vec> everywhere(const std::vector<double>& field) const {
-    std::vector<Vec> values(body.nodes());
-    for (int i = 0; i < body.nodes(); ++i) values[i] = at(field, i);
-    return values;
-  }
-  void add(int node, const Vec& f, double factor, std::vector<double>& to) const {
-    for (int d = 0; d < 3; ++d)
-      if (const int i = unknowns.of_node[node][d]; i >= 0) to[i] += factor * f[d];
-  }
-
-  // Gravity and loads; the contact forces come on top.
-  void outer_force(std::vector<double>& f) const {
-    std::fill(f.begin(), f.end(), 0.);
-    if (inner(p.gravity, p.gravity) > 0)
-      for (int i = 0; i < body.nodes(); ++i) add(i, p.gravity, assembled.node_mass[i], f);
-    for (std::size_t l = 0; l < patches.size(); ++l)
-      if (load[l] != 0)
-        for (const auto& [node, weight] : patches[l].weights)
-          add(node, patches[l].direction, weight * load[l], f);
-  }
-  void add_surface(const std::vector<Vec>& forces, std::vector<double>& f) const {
-    for (std::size_t i = 0; i < forces.size(); ++i) add(surface.node[i], forces[i], 1., f);
-  }
-  void check(const std::vector<Vec>& forces) const {
-    if (forces.size() != surface.node.size())
-      throw RunError(
-          text(p.name, ": ", forces.size(), " surface forces for ", surface.node.size(), " nodes"));
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      if (!std::isfinite(inner(forces[i], forces[i])))
-        throw RunError(text(p.name, ": the contact force on surface node ", i,
-                            " is not finite; the time step is probably too large"));
-  }
-
-  Vec patch_mean(int l, const std::vector<double>& field) const {
-    Vec mean{};
-    for (const auto& [node, weight] : patches[l].weights) {
-      const Vec value = at(field, node);
-      for (int d = 0; d < 3; ++d) mean[d] += weight * value[d];
-    }
-    return mean;
   }
 
   double gravity_potential() const {
-    if (!(inner(p.gravity, p.gravity) > 0)) return 0;
+    if (!has_gravity()) return 0;
     double energy = 0;
     for (int i = 0; i < body.nodes(); ++i)
       energy -= assembled.node_mass[i] * inner(p.gravity, at(motion.u, i));
@@ -144,11 +57,11 @@ struct ElasticBody::Parts {
 
 ElasticBody::ElasticBody(ElasticBodyParameters p) : parts_(new Parts(std::move(p))) {
   Parts& s = *parts_;
-  if (!(inner(s.p.gravity, s.p.gravity) > 0)) return;
-  if (s.p.start_in_equilibrium && free_motion(s.body, s.unknowns, s.p.beds).empty()) {
+  if (!s.has_gravity()) return;
+  if (s.p.start_in_equilibrium && s.free_motion().empty()) {
     solve_static();
   } else {
-    s.outer_force(s.motion.f);
+    s.outer_force(s.load, s.motion.f);
     s.stepper.set_acceleration(s.motion);
     s.start_ledger();
   }
@@ -192,7 +105,7 @@ void ElasticBody::motion(std::vector<Vec>& displacement, std::vector<Vec>& veloc
 void ElasticBody::advance(const std::vector<Vec>& forces) {
   Parts& s = *parts_;
   s.check(forces);
-  s.outer_force(s.force);
+  s.outer_force(s.load, s.force);
   s.add_surface(forces, s.force);
   s.u_before = s.motion.u;
   const bool damped = !s.matrices().damping.empty();
@@ -232,25 +145,8 @@ Vec ElasticBody::load_displacement(int load) const {
   return parts_->patch_mean(load, parts_->motion.u);
 }
 
-double ElasticBody::mass() const {
-  double sum = 0;
-  for (double m : parts_->assembled.node_mass) sum += m;
-  return sum;
-}
-
-double ElasticBody::least_surface_mass() const {
-  const Parts& s = *parts_;
-  std::vector<double> mass(s.body.nodes(), 0.);  // images share a node
-  for (int i = 0; i < s.body.nodes(); ++i) mass[s.unknowns.same_as[i]] += s.assembled.node_mass[i];
-  double least = std::numeric_limits<double>::infinity();
-  for (int node : s.surface.node) {
-    const auto& ids = s.unknowns.of_node[node];
-    if (std::max({ids[0], ids[1], ids[2]}) >= 0)
-      least = std::min(least, mass[s.unknowns.same_as[node]]);
-  }
-  return least;
-}
-
+double ElasticBody::mass() const { return parts_->mass(); }
+double ElasticBody::least_surface_mass() const { return parts_->least_surface_mass(); }
 double ElasticBody::largest_frequency() const { return fem::largest_frequency(parts_->matrices()); }
 int ElasticBody::unknowns() const { return parts_->unknowns.count; }
 
@@ -314,7 +210,7 @@ void ElasticBody::set_velocity(const Vec& velocity) {
   for (const auto& ids : s.unknowns.of_node)
     for (int d = 0; d < 3; ++d)
       if (ids[d] >= 0) s.motion.v[ids[d]] = velocity[d];
-  s.outer_force(s.motion.f);
+  s.outer_force(s.load, s.motion.f);
   s.load_before = s.load;
   std::fill(s.surface_before.begin(), s.surface_before.end(), Vec{});
   s.stepper.set_acceleration(s.motion);
@@ -323,11 +219,11 @@ void ElasticBody::set_velocity(const Vec& velocity) {
 
 void ElasticBody::solve_static(const std::vector<Vec>& forces) {
   Parts& s = *parts_;
-  const std::string free = free_motion(s.body, s.unknowns, s.p.beds);
+  const std::string free = s.free_motion();
   if (!free.empty())
     throw InputError(text(s.p.name, ": not held: it can still ", free,
                           ", so a static answer does not exist; add supports or a bed"));
-  s.outer_force(s.motion.f);
+  s.outer_force(s.load, s.motion.f);
   std::fill(s.surface_before.begin(), s.surface_before.end(), Vec{});
   if (!forces.empty()) {
     s.check(forces);

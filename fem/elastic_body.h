@@ -142,6 +142,8 @@ class ElasticBody final : public Structure {
   StructureEnergy energy() const override;
   void save(std::vector<double>& state) const override;
   void load(const std::vector<double>& state) override;
+  bool has_fields() const override { return true; }
+  void write_vtu(const std::string& file) const override;
 
   const ElasticBodyParameters& parameters() const;
 
@@ -168,10 +170,6 @@ class ElasticBody final : public Structure {
 
   /// Lowest `count` natural frequencies [Hz], rigid modes (≈0) included, by SLEPc.
   std::vector<double> frequencies(int count) const;
-
-  /// Displacement, velocity, stresses and material as VTU; written aside, then renamed.
-  /// \throws RunError if the file cannot be written.
-  void write_vtu(const std::string& file) const;
 
  private:
   struct Parts;

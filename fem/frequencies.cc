@@ -61,6 +61,10 @@ double largest_frequency(const Matrices& m) {
 }
 
 std::vector<double> lowest_frequencies(const Matrices& m, int count) {
+  return lowest_modes(m, count).frequency;
+}
+
+Modes lowest_modes(const Matrices& m, int count) {
   start_session();
   const int n = m.pattern.rows();
   if (count < 1 || count > n)
@@ -89,19 +93,31 @@ std::vector<double> lowest_frequencies(const Matrices& m, int count) {
   const PetscErrorCode code = EPSSolve(eps);
   PetscInt found = 0;
   if (!code) EPSGetConverged(eps, &found);
-  std::vector<double> frequency;
+  std::vector<std::pair<double, PetscInt>> order;
   for (PetscInt i = 0; i < std::min<PetscInt>(found, count); ++i) {
     PetscScalar value = 0;
     EPSGetEigenvalue(eps, i, &value, nullptr);
-    frequency.push_back(std::sqrt(std::max(value, 0.)) / (2 * M_PI));
+    order.emplace_back(std::sqrt(std::max(value, 0.)) / (2 * M_PI), i);
   }
+  std::sort(order.begin(), order.end());
+  Modes modes;
+  ::Vec x = nullptr;
+  MatCreateVecs(K, &x, nullptr);
+  for (const auto& [frequency, i] : order) {
+    EPSGetEigenvector(eps, i, x, nullptr);
+    const PetscScalar* values = nullptr;
+    VecGetArrayRead(x, &values);
+    modes.frequency.push_back(frequency);
+    modes.shape.emplace_back(values, values + n);
+    VecRestoreArrayRead(x, &values);
+  }
+  VecDestroy(&x);
   EPSDestroy(&eps);
   MatDestroy(&K);
   MatDestroy(&M);
-  if (static_cast<int>(frequency.size()) < count)
+  if (static_cast<int>(order.size()) < count)
     throw RunError(text("natural frequencies: only ", found, " of ", count, " converged"));
-  std::sort(frequency.begin(), frequency.end());
-  return frequency;
+  return modes;
 }
 
 }  // namespace trackbed::fem

@@ -73,4 +73,17 @@ void subtract_products(const Pattern& p, const std::vector<double>& M, const std
   }
 }
 
+void modal_place(const double* shape, int nodes, int modes, const double* q, double* u) {
+  for (int row = 0; row < 3 * nodes; ++row) {
+    // Four sums side by side: a fixed order that the compiler may put into registers.
+    double sum[4] = {0, 0, 0, 0};
+    const double* phi = shape + static_cast<std::size_t>(row) * modes;
+    int k = 0;
+    for (; k + 4 <= modes; k += 4)
+      for (int j = 0; j < 4; ++j) sum[j] += phi[k + j] * q[k + j];
+    for (; k < modes; ++k) sum[0] += phi[k] * q[k];
+    u[row] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+}
+
 }  // namespace trackbed::fem

@@ -27,4 +27,7 @@ void subtract_products(const Pattern&, const std::vector<double>& M, const std::
                        const std::vector<double>& K, const std::vector<double>& k,
                        std::vector<double>& r);
 
+/// u = Φ q, row by row: `rows` nodes of three directions, `modes` columns (modal_structure.h).
+void modal_place(const double* shape, int nodes, int modes, const double* q, double* u);
+
 }  // namespace trackbed::fem

@@ -10,6 +10,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace trackbed::fem {
@@ -89,6 +90,11 @@ class Structure {
   /// in it: build the same structure first. \throws InputError if the length does not fit.
   virtual void save(std::vector<double>& state) const = 0;
   virtual void load(const std::vector<double>& state) = 0;
+
+  /// Fields of the whole body (displacement, velocity, stresses, material) as VTU; written aside,
+  /// then renamed. \throws RunError if the file cannot be written.
+  virtual bool has_fields() const { return false; }
+  virtual void write_vtu(const std::string& /*file*/) const {}
 };
 
 }  // namespace trackbed::fem

@@ -6,6 +6,7 @@ trackbed_test(fem_meshes unit trackbed_fem)
 target_compile_definitions(fem_meshes_test PRIVATE TRACKBED_MESHES="${PROJECT_SOURCE_DIR}/meshes")
 trackbed_test(fem_statics verification trackbed_fem)
 trackbed_test(fem_dynamics verification trackbed_fem)
+trackbed_test(fem_reduction verification trackbed_fem)
 # Looks at the library's inner parts, and so at deal.II.
 trackbed_test(fem_convergence verification trackbed_fem trackbed_dealii)
 

@@ -1,0 +1,112 @@
+// A structure given by modes: the motion of its surface is u = Φ q, and every modal coordinate is
+// an oscillator of its own,
+//
+//   q̈ᵢ + 2δᵢ q̇ᵢ + ωᵢ² qᵢ = φᵢ · f,      modes of unit modal mass, ω = 0 for rigid motions.
+//
+// Reduced bodies, beams and rigid bodies with chosen degrees of freedom are all of this kind.
+//
+// Time. Each oscillator is advanced exactly while the force is constant,
+//   q₊ = A q + B q̇ + E p,   q̇₊ = C q + D q̇ + b₀ p + b₁ p₊,   p = φ·f,
+// with A … E of the exact solution over Δt. The share of the new force, b₁ = tan(½ωΔt)/ω with
+// b₀ + b₁ = B, makes the step symmetric in time (a trigonometric method: Hairer, Lubich, Wanner,
+// Geometric Numerical Integration, ch. XIII.2), so that
+//   - a constant force gives the exact static deflection, free vibration the exact frequency;
+//   - the predicted surface is where it goes: no transfer error in the exchange;
+//   - two masses of METHODS F do not grow at any ωΔt (a force taken linear over the step would
+//     shift the predicted place by Δf Δt²/6 after the fact, and damp).
+// Modes with ωΔt > 1 only follow statically: their modal mass is raised to (ωΔt)², which leaves
+// flexibility, rigid motion and momentum as they are.
+//
+// Cost of a step: two products with Φ, nodes × modes each. No solve, no factor.
+#pragma once
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fem/structure.h"
+
+namespace trackbed::fem {
+
+/// Mean displacement of the patch a load acts on, and its direction.
+struct ModalLoad {
+  std::string name;
+  Vec direction{0, 0, -1};
+  std::vector<double> shape;  ///< x, y, z of each mode: 3 m
+};
+
+struct ModalModel {
+  std::string name = "body";  ///< for messages
+  SurfaceMesh surface;
+  std::vector<double> omega;     ///< ω of each mode [rad/s], 0 = rigid
+  double damping_mass = 0;       ///< α_M [1/s]; δ = ½(α_M + α_K ω²)
+  double damping_stiffness = 0;  ///< α_K [s]
+  std::vector<double> shape;     ///< Φ: row 3 node + direction, m columns [kg^-1/2]
+  std::vector<ModalLoad> loads;
+  std::vector<double> gravity;  ///< modal force of the body's weight; empty: none
+  bool start_in_equilibrium = false;
+  double mass = 0, least_surface_mass = 0;
+  /// Writes the fields of the whole body for its modal coordinates and velocities; may be empty.
+  std::function<void(const std::string& file, const std::vector<double>& q,
+                     const std::vector<double>& v)>
+      write = {};
+};
+
+class ModalStructure final : public Structure {
+ public:
+  /// At rest at t = 0, or in equilibrium under its weight. \throws InputError if sizes do not fit.
+  explicit ModalStructure(ModalModel);
+
+  const SurfaceMesh& surface() const override { return m_.surface; }
+  void set_step(double dt) override;
+  void predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const override;
+  void advance(const std::vector<Vec>& surface_forces) override;
+  void motion(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const override;
+  int loads() const override { return static_cast<int>(m_.loads.size()); }
+  void set_load(int load, double newton) override;
+  Vec load_displacement(int load) const override;
+  double mass() const override { return m_.mass; }
+  double least_surface_mass() const override { return m_.least_surface_mass; }
+  double largest_frequency() const override;
+  int unknowns() const override { return modes(); }
+  StructureEnergy energy() const override;
+  void save(std::vector<double>& state) const override;
+  void load(const std::vector<double>& state) override;
+  bool has_fields() const override { return static_cast<bool>(m_.write); }
+  void write_vtu(const std::string& file) const override;
+
+  const ModalModel& model() const { return m_; }
+  int modes() const { return static_cast<int>(m_.omega.size()); }
+  const std::vector<double>& coordinates() const { return q_; }
+
+  /// q = p/ω² under loads, weight and surface forces (empty: none); at rest afterwards.
+  /// \throws InputError if a rigid motion is loaded: the body is not held.
+  void solve_static(const std::vector<Vec>& surface_forces = {});
+
+  /// Same velocity everywhere in modal coordinates [kg^1/2 m/s].
+  void set_modal_velocity(const std::vector<double>& v);
+
+ private:
+  struct Step {  // coefficients of one mode
+    double a, b, c, d, e, b0, b1, mass;
+  };
+  void outer_force(std::vector<double>& p) const;
+  void add_surface(const std::vector<Vec>& forces, std::vector<double>& p) const;
+  void place(const std::vector<double>& q, std::vector<Vec>& u) const;
+  double kinetic() const;
+  double strain() const;
+  double gravity_potential() const;
+  void start_ledger();
+
+  ModalModel m_;
+  std::vector<Step> step_;
+  double dt_ = 0;
+  std::vector<double> q_, v_;
+  std::vector<double> force_, surface_force_;  // modal, at t: all of it, and the contacts' share
+  std::vector<double> load_;                   // [N]
+  double work_loads_ = 0, work_surface_ = 0, damping_ = 0, at_start_ = 0;
+  mutable std::vector<double> next_q_, next_v_;
+  std::vector<double> next_force_, next_surface_;
+};
+
+}  // namespace trackbed::fem

@@ -1,0 +1,268 @@
+// Reduced bodies against the full one and against known answers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/reduction.h"
+
+using namespace trackbed::fem;
+
+namespace {
+
+ElasticBodyParameters sleeper() {
+  ElasticBodyParameters p;
+  p.name = "Sleeper";
+  p.mesh.corner = {-1.3, -0.14, 0};
+  p.mesh.lengths = {2.6, 0.28, 0.2};
+  p.mesh.elements = {26, 2, 2};
+  p.materials = {{"concrete", 40e9, 0.2, 360 / (2.6 * 0.28 * 0.2)}};
+  p.loads = {{"left", "top", true, -0.75, 0, 0.15, 0.15},
+             {"right", "top", true, 0.75, 0, 0.15, 0.15}};
+  p.contact = {"bottom", "top", "x_min", "x_max"};
+  return p;
+}
+
+ElasticBodyParameters soil() {
+  ElasticBodyParameters p;
+  p.name = "Subgrade";
+  p.mesh.corner = {0, 0, -0.6};
+  p.mesh.lengths = {0.6, 0.3, 0.6};
+  p.mesh.elements = {6, 3, 6};
+  p.materials = {{"soil", 60e6, 0.35, 1900}};
+  p.supports["bottom"] = Support::fixed;
+  for (const char* side : {"x_min", "x_max", "y_min", "y_max"}) p.supports[side] = Support::roller;
+  p.contact = {"top"};
+  return p;
+}
+
+// Forces on some nodes that come smoothly, as those of grains under a load do.
+std::vector<Vec> forces(std::size_t nodes, double t) {
+  std::vector<Vec> f(nodes, Vec{});
+  for (std::size_t i = 0; i < nodes; i += 5)
+    f[i] = {0, 20 * std::pow(std::sin(200 * t), 3),
+            -100 * std::pow(std::sin(300 * t), 2) * (1 + 0.5 * std::sin(1. * i))};
+  return f;
+}
+
+// Largest difference of the surface's place over a run, over the largest displacement.
+double deviation(const ElasticBodyParameters& p, Reduction reduction, int modes) {
+  auto full_parameters = p;
+  full_parameters.newmark = true;
+  ElasticBody full(full_parameters);
+  const auto reduced = reduced_body(p, reduction, modes);
+  const double dt = 1e-5;
+  full.set_step(dt);
+  reduced->set_step(dt);
+  std::vector<Vec> u, v, w;
+  double worst = 0, largest = 0;
+  for (int n = 1; n <= 1000; ++n) {
+    for (int l = 0; l < full.loads(); ++l) {
+      full.set_load(l, 1000 * std::sin(100. * n * dt));
+      reduced->set_load(l, 1000 * std::sin(100. * n * dt));
+    }
+    const auto f = forces(full.surface().nodes.size(), n * dt);
+    full.advance(f);
+    reduced->advance(f);
+    if (n % 50) continue;
+    full.motion(u, v);
+    reduced->motion(w, v);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      for (int d = 0; d < 3; ++d) {
+        worst = std::max(worst, std::abs(u[i][d] - w[i][d]));
+        largest = std::max(largest, std::abs(u[i][d]));
+      }
+  }
+  return worst / largest;
+}
+
+}  // namespace
+
+TEST(Reduction, FollowsTheFullBody) {
+  EXPECT_LT(deviation(sleeper(), Reduction::modal, 20), 0.01);
+  EXPECT_LT(deviation(soil(), Reduction::condensed, 20), 0.02);
+  EXPECT_LT(deviation(soil(), Reduction::condensed, 80), 0.006);
+}
+
+TEST(Reduction, ReportsItsError) {
+  ReductionReport modal, condensed;
+  reduced_body(sleeper(), Reduction::modal, 20, &modal);
+  reduced_body(soil(), Reduction::condensed, 5, &condensed);
+  for (const auto& r : {modal, condensed}) {
+    EXPECT_EQ(r.frequencies.size(), 5);
+    EXPECT_LT(r.largest_frequency_error, 1e-6);
+    EXPECT_NEAR(r.pressure_error, 0, 1e-6);
+  }
+  EXPECT_LT(modal.modes, 60);
+  EXPECT_GT(modal.node_error, 0.01);  // the dent under one node takes high modes
+  EXPECT_NEAR(condensed.node_error, 0, 1e-6);
+}
+
+// Static deflections of a held body, under loads that the basis has been given.
+TEST(Reduction, StaticsAreTheFullBodys) {
+  auto p = soil();
+  p.loads = {{"plate", "top", true, 0.3, 0.15, 0.2, 0.2}};
+  ElasticBody full(p);
+  full.set_load(0, 1e4);
+  full.solve_static();
+  for (const Reduction r : {Reduction::modal, Reduction::condensed}) {
+    const auto reduced = reduced_body(p, r, 10);
+    reduced->set_load(0, 1e4);
+    reduced->solve_static();
+    EXPECT_NEAR(reduced->load_displacement(0)[2] / full.load_displacement(0)[2], 1, 1e-8);
+    EXPECT_NEAR(reduced->energy().strain / full.energy().strain, 1, 1e-8);
+  }
+}
+
+TEST(Reduction, FreeBodyFallsAtGAndKeepsMomentum) {
+  auto p = sleeper();
+  p.gravity = {0, 0, -9.81};
+  p.start_in_equilibrium = false;
+  const auto b = reduced_body(p, Reduction::modal, 20);
+  EXPECT_NEAR(b->mass(), 360, 1e-9);
+  b->set_step(1e-4);
+  const std::vector<Vec> none(b->surface().nodes.size(), Vec{});
+  for (int n = 0; n < 1000; ++n) b->advance(none);
+  std::vector<Vec> u, v;
+  b->motion(u, v);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    EXPECT_NEAR(u[i][2], -0.5 * 9.81 * 0.01, 1e-9);
+    EXPECT_NEAR(v[i][2], -9.81 * 0.1, 1e-8);
+  }
+  // A push on one node and a seat: the impulse is the body's momentum, whatever it does inside.
+  const auto momentum = [&] {
+    std::vector<double> state;
+    b->save(state);
+    double sum = 0;  // the weight's modal force is -9.81 times the modes' share of the mass
+    for (int k = 0; k < b->modes(); ++k)
+      sum += b->model().gravity[k] / -9.81 * state[4 + b->modes() + k];
+    return sum;
+  };
+  auto push = none;
+  push[3] = {50, -20, 700};
+  b->set_load(0, 300);
+  const double before = momentum();
+  b->advance(push);  // half a step of it, then whole ones, then half a step
+  for (int n = 1; n < 100; ++n) b->advance(push);
+  b->set_load(0, 0);
+  b->advance(none);
+  EXPECT_NEAR(momentum() - before, 400 * 0.01 - 9.81 * 360 * 101e-4, 1e-9 * 360 * 9.81);
+}
+
+TEST(Reduction, RefusesWhatItCannot) {
+  auto p = soil();
+  p.beds = {{"bottom", 0, 0, 1e5, 1e5}};
+  try {
+    reduced_body(p, Reduction::modal, 10);
+    FAIL();
+  } catch (const std::exception& e) {
+    EXPECT_STREQ(e.what(),
+                 "Subgrade: dashpots on boundary 'bottom' couple the modes; a reduced body cannot "
+                 "have them, reduction none can");
+  }
+  EXPECT_THROW(
+      {
+        auto b = reduced_body(sleeper(), Reduction::modal, 5);
+        b->set_load(0, 1);
+        b->solve_static();
+      },
+      std::exception);
+}
+
+namespace {
+
+// One mode that carries one node.
+ModalModel oscillator(double omega, double mass, double damping = 0) {
+  ModalModel m;
+  m.surface.nodes = {{0, 0, 0}};
+  m.surface.same_as = {0};
+  m.omega = {omega};
+  m.damping_mass = damping;
+  m.shape = {0, 0, 1 / std::sqrt(mass)};
+  m.mass = m.least_surface_mass = mass;
+  return m;
+}
+
+}  // namespace
+
+// A constant force: u = F/k (1 − e^{−δt}(cos ω_d t + δ/ω_d sin ω_d t)), at steps of any size below
+// ωΔt = 1; beyond, the static deflection is still exact.
+TEST(ModalStructure, IsExactUnderAConstantForce) {
+  const double omega = 7, mass = 2, force = 3;
+  for (const double delta : {0., 0.4, 8.})
+    for (const double dt : {0.01, 0.14}) {
+      ModalStructure s(oscillator(omega, mass, 2 * delta));
+      s.set_step(dt);
+      s.advance({{0, 0, force}});
+      // The first step has half of the force from its end on: from there on it is constant.
+      std::vector<Vec> u, v;
+      s.motion(u, v);
+      const double q0 = u[0][2] - force / (mass * omega * omega), v0 = v[0][2];
+      for (int n = 0; n < 50; ++n) s.advance({{0, 0, force}});
+      s.motion(u, v);
+      const double t = 50 * dt, r2 = omega * omega - delta * delta, r = std::sqrt(std::abs(r2));
+      const double c = r2 > 0 ? std::cos(r * t) : std::cosh(r * t),
+                   sine = (r2 > 0 ? std::sin(r * t) : std::sinh(r * t)) / r;
+      const double exact = force / (mass * omega * omega) +
+                           std::exp(-delta * t) * (q0 * (c + delta * sine) + v0 * sine);
+      EXPECT_NEAR(u[0][2], exact, 1e-13) << delta << " " << dt;
+    }
+  ModalStructure stiff(oscillator(1e6, mass, 0));
+  stiff.set_step(0.1);
+  double mean = 0;
+  std::vector<Vec> u, v;
+  for (int n = 0; n < 6283; ++n) {
+    stiff.advance({{0, 0, force}});
+    stiff.motion(u, v);
+    mean += u[0][2] / 6283;
+  }
+  EXPECT_NEAR(mean * mass * 1e12 / force, 1, 1e-2);
+}
+
+// METHODS F: masses 1 (grain, velocity Verlet) and 2, ground spring 3 on the second, contact spring
+// 4. No growth at any step: the energy after many steps is bounded.
+TEST(ModalStructure, TwoMassesDoNotGrow) {
+  for (const double W : {0.1, 0.5, 1.}) {
+    const double dt = W / 2.56699322;
+    ModalStructure s(oscillator(std::sqrt(1.5), 2));
+    s.set_step(dt);
+    std::vector<Vec> u, w;
+    double x = 0.01, v = 0, f = -4 * x, early = 0, late = 0;
+    s.advance({{0, 0, 0}});
+    const int steps = 200000;
+    for (int n = 0; n < steps; ++n) {
+      x += dt * (v + dt / 2 * f);
+      s.predict(u, w);
+      const double now = -4 * (x - u[0][2]);
+      s.advance({{0, 0, -now}});
+      v += dt / 2 * (f + now);
+      f = now;
+      std::vector<Vec> place;
+      s.motion(place, w);
+      EXPECT_EQ(place[0][2], u[0][2]);  // it goes where it was predicted
+      double& most = n < steps / 10 ? early : late;
+      if (n < steps / 10 || n > steps * 9 / 10) most = std::max(most, std::abs(x));
+    }
+    EXPECT_NEAR(late / early, 1, 1e-3) << W;
+  }
+}
+
+TEST(ModalStructure, EnergyAndStateComeBack) {
+  auto p = soil();
+  const auto one = reduced_body(p, Reduction::modal, 10),
+             two = reduced_body(p, Reduction::modal, 10);
+  one->set_step(2e-5), two->set_step(2e-5);
+  for (int n = 0; n < 100; ++n) one->advance(forces(one->surface().nodes.size(), n * 1e-3));
+  std::vector<double> state, again;
+  one->save(state);
+  two->load(state);
+  for (auto* s : {one.get(), two.get()})
+    for (int n = 0; n < 100; ++n) s->advance(forces(s->surface().nodes.size(), n * 1e-4));
+  one->save(state);
+  two->save(again);
+  EXPECT_EQ(state, again);
+  const StructureEnergy e = one->energy();
+  EXPECT_GT(e.work_surface, 0);
+  EXPECT_NEAR(e.numerical, 0, 1e-3 * e.work_surface);
+  state.pop_back();
+  EXPECT_THROW(two->load(state), std::exception);
+}
