@@ -1,5 +1,7 @@
 #include "fem/assembly.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "fem/element.h"
 #include "fem/supports.h"
@@ -18,7 +20,7 @@ std::vector<int> unknowns_of(const Unknowns& unknowns, const int* nodes, int cou
 bool damps(const ElasticBodyParameters& p) {
   bool any = false;
   for (const Material& m : p.materials) any |= m.rayleigh_mass > 0 || m.rayleigh_stiffness > 0;
-  for (const Bed& b : p.beds) any |= b.normal_dashpot > 0 || b.shear_dashpot > 0;
+  for (const Bed& b : p.beds) any |= b.has_dashpots();
   return any;
 }
 
@@ -34,17 +36,34 @@ void lump(dealii::FullMatrix<double>& mass) {
   }
 }
 
-void add_bed(const ElasticBodyParameters& p, const Bed& bed, const Discretisation& body,
-             const Unknowns& unknowns, Matrices& matrices) {
-  const int id = find_boundary(body, p.name, "bed", bed.boundary);
-  for (double value :
-       {bed.normal_stiffness, bed.shear_stiffness, bed.normal_dashpot, bed.shear_dashpot})
+// The bed with the springs and dashpots of an absorbing boundary on this material.
+Bed absorbing(Bed bed, const std::array<double, 3>& elastic) {
+  if (!bed.absorbing) return bed;
+  const auto [young, poisson, density] = elastic;
+  const double shear = young / (2 * (1 + poisson));
+  const double confined = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+  bed.normal_dashpot += std::sqrt(density * confined);
+  bed.shear_dashpot += std::sqrt(density * shear);
+  if (bed.distance > 0) {
+    bed.normal_stiffness += 4. / 3 * shear / bed.distance;
+    bed.shear_stiffness += 2. / 3 * shear / bed.distance;
+  }
+  return bed;
+}
+
+void add_bed(const ElasticBodyParameters& p, const Bed& given, const Discretisation& body,
+             const Unknowns& unknowns, const std::vector<std::array<double, 3>>& elastic,
+             Matrices& matrices) {
+  const int id = find_boundary(body, p.name, "bed", given.boundary);
+  for (double value : {given.normal_stiffness, given.shear_stiffness, given.normal_dashpot,
+                       given.shear_dashpot, given.distance})
     if (!(value >= 0))
       throw InputError(
-          text(p.name, ": bed on '", bed.boundary, "': ", value, ", must be 0 or more"));
+          text(p.name, ": bed on '", given.boundary, "': ", value, ", must be 0 or more"));
   const auto& pattern = matrices.pattern;
   for (const Face& face : body.faces) {
     if (face.boundary != id) continue;
+    const Bed bed = absorbing(given, elastic[face.cell]);
     const auto ids = unknowns_of(unknowns, face.nodes.data(), face.count);
     for (const FacePoint& point : face_points(body, face))
       for (std::size_t a = 0; a < ids.size(); ++a)
@@ -80,9 +99,11 @@ Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discr
   out.node_mass.assign(body.nodes(), 0.);
 
   ElementIntegrals element(p, grid);
+  std::vector<std::array<double, 3>> elastic;  // E, ν, ρ of each cell
   int c = 0;
   for (const auto& cell : grid.nodes.active_cell_iterators()) {
     element.compute(cell);
+    elastic.push_back(element.mean_elastic());
     if (lumped_mass) lump(element.mass);
     const Material& material = p.materials[cell->material_id()];
     const std::vector<int>& ids = groups[c];
@@ -103,7 +124,7 @@ Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discr
       for (int b = 0; b < n; ++b) out.node_mass[body.cell_nodes[c * n + a]] += element.mass(a, b);
     ++c;
   }
-  for (const Bed& bed : p.beds) add_bed(p, bed, body, unknowns, m);
+  for (const Bed& bed : p.beds) add_bed(p, bed, body, unknowns, elastic, m);
   if (lumped_mass)
     for (int i = 0; i < unknowns.count; ++i) m.lumped.push_back(m.mass[m.pattern.place(i, i)]);
   return out;

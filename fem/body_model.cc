@@ -26,6 +26,10 @@ Discretisation make(const ElasticBodyParameters& p, Grid& grid) {
 
 bool lumped(const ElasticBodyParameters& p, const Discretisation& body, const Unknowns& unknowns) {
   for (const Bed& bed : p.beds) find_boundary(body, p.name, "bed", bed.boundary);
+  const bool needed = p.scheme == TimeScheme::central_difference || p.scheme == TimeScheme::zhai;
+  if (p.mass == Mass::consistent && needed)
+    throw InputError(p.name + ": central_difference and zhai need lumped mass, not consistent");
+  if (needed) return true;
   if (p.mass == Mass::automatic) return free_motion(body, unknowns, p.beds).empty();
   return p.mass == Mass::lumped;
 }
@@ -39,6 +43,8 @@ BodyModel::BodyModel(ElasticBodyParameters given)
       unknowns(number_unknowns(body, p.name, p.supports)),
       assembled(assemble(p, grid, body, unknowns, lumped(p, body, unknowns))),
       surface(contact_surface(body, unknowns, p.name, p.contact)) {
+  if (chosen_solver(p.solver, unknowns.count) != SolverKind::direct)
+    assembled.matrices.rigid = rigid_motions(body, unknowns);
   for (const Load& l : p.loads) patches.push_back(load_patch(body, p.name, l));
 }
 

@@ -16,6 +16,7 @@ struct Face {
   std::array<int, 9> nodes{};
   int count = 4;
   int boundary = 0;
+  int cell = 0;  ///< that it belongs to
 };
 
 struct Discretisation {

@@ -81,6 +81,7 @@ Discretisation discretise(Grid& grid) {
       Face face;
       face.count = static_cast<int>(per_face);
       face.boundary = static_cast<int>(cell->face(f)->boundary_id());
+      face.cell = static_cast<int>(cell->active_cell_index());
       const int n = per_face == 4 ? 2 : 3;
       for (unsigned i = 0; i < per_face; ++i)
         face.nodes[kRaster[n - 2][i]] = static_cast<int>(on_face[i]);

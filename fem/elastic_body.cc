@@ -22,6 +22,7 @@ double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[
 
 struct ElasticBody::Parts : BodyModel {
   Stepper stepper;
+  std::unique_ptr<LinearSolver> statics;  // of the stiffness, when first needed
 
   Motion motion;
   std::vector<double> load, load_before;  // resultants [N]: from the next step on, and at t
@@ -32,7 +33,12 @@ struct ElasticBody::Parts : BodyModel {
 
   explicit Parts(ElasticBodyParameters given)
       : BodyModel(std::move(given)),
-        stepper(assembled.matrices, p.newmark ? newmark() : generalised_alpha(p.rho_inf)) {
+        stepper(assembled.matrices,
+                make_scheme(p.scheme, p.newmark ? newmark() : generalised_alpha(p.rho_inf)),
+                p.solver) {
+    if (const std::string free = free_motion(); is_static() && !free.empty())
+      throw InputError(text(p.name, ": not held: it can still ", free,
+                            ", so quasi_static cannot carry it; add supports or a bed"));
     for (auto* field : {&motion.u, &motion.v, &motion.a, &motion.f, &force, &u_before})
       field->assign(unknowns.count, 0.);
     load.assign(patches.size(), 0.);
@@ -47,7 +53,8 @@ struct ElasticBody::Parts : BodyModel {
       energy -= assembled.node_mass[i] * inner(p.gravity, at(motion.u, i));
     return energy;
   }
-  double kinetic() const { return product_of(matrices().mass, motion.v) / 2; }
+  bool is_static() const { return p.scheme == TimeScheme::quasi_static; }
+  double kinetic() const { return is_static() ? 0 : product_of(matrices().mass, motion.v) / 2; }
   double strain() const { return product_of(matrices().stiffness, motion.u) / 2; }
   double product_of(const std::vector<double>& A, const std::vector<double>& x) const {
     return fem::product(matrices().pattern, A, x, x);
@@ -85,8 +92,7 @@ void ElasticBody::predict(std::vector<Vec>& displacement, std::vector<Vec>& velo
     const auto& ids = s.unknowns.of_node[s.surface.node[i]];
     for (int d = 0; d < 3; ++d) {
       const int k = ids[d];
-      displacement[i][d] =
-          k < 0 ? 0. : s.motion.u[k] + dt * (s.motion.v[k] + 0.5 * dt * s.motion.a[k]);
+      displacement[i][d] = k < 0 ? 0. : s.stepper.predicted(s.motion, k);
       velocity[i][d] = k < 0 ? 0. : s.motion.v[k] + dt * s.motion.a[k];
     }
   }
@@ -108,7 +114,7 @@ void ElasticBody::advance(const std::vector<Vec>& forces) {
   s.outer_force(s.load, s.force);
   s.add_surface(forces, s.force);
   s.u_before = s.motion.u;
-  const bool damped = !s.matrices().damping.empty();
+  const bool damped = !s.matrices().damping.empty() && !s.is_static();
   if (damped) multiply(s.matrices().pattern, s.matrices().damping, s.motion.v, s.product);
   s.stepper.advance(s.motion, s.force);
 
@@ -148,6 +154,8 @@ Vec ElasticBody::load_displacement(int load) const {
 double ElasticBody::mass() const { return parts_->mass(); }
 double ElasticBody::least_surface_mass() const { return parts_->least_surface_mass(); }
 double ElasticBody::largest_frequency() const { return fem::largest_frequency(parts_->matrices()); }
+double ElasticBody::largest_step() const { return parts_->stepper.largest_step(); }
+int ElasticBody::solver_iterations() const { return parts_->stepper.iterations(); }
 int ElasticBody::unknowns() const { return parts_->unknowns.count; }
 
 StructureEnergy ElasticBody::energy() const {
@@ -176,13 +184,15 @@ void ElasticBody::save(std::vector<double>& state) const {
     put(*field);
   for (const Vec& f : s.surface_before) state.insert(state.end(), f.begin(), f.end());
   put({s.totals.work_loads, s.totals.work_surface, s.totals.damping, s.totals.at_start});
+  put(s.motion.a_before);
 }
 
 void ElasticBody::load(const std::vector<double>& state) {
   Parts& s = *parts_;
   const std::size_t expected =
       4 * s.motion.u.size() + 2 * s.load.size() + 3 * s.surface_before.size() + 4;
-  if (state.size() != expected)
+  const bool has_before = state.size() == expected + s.motion.a.size();  // of Zhai
+  if (state.size() != expected && !(has_before && s.p.scheme == TimeScheme::zhai))
     throw InputError(text(s.p.name, ": the saved state has ", state.size(),
                           " numbers, this body needs ", expected, "; it belongs to another mesh"));
   auto from = state.begin();
@@ -195,6 +205,10 @@ void ElasticBody::load(const std::vector<double>& state) {
   for (Vec& f : s.surface_before)
     for (double& c : f) c = *from++;
   s.totals = {from[0], from[1], from[2], from[3]};
+  if (has_before)
+    s.motion.a_before.assign(from + 4, state.end());
+  else
+    s.motion.a_before.clear();
 }
 
 void ElasticBody::translate(const Vec& by) {
@@ -231,8 +245,10 @@ void ElasticBody::solve_static(const std::vector<Vec>& forces) {
     s.surface_before = forces;
   }
   s.load_before = s.load;
-  Factor(s.matrices().pattern, s.matrices().stiffness, s.p.name.c_str())
-      .solve(s.motion.f, s.motion.u);
+  if (!s.statics)
+    s.statics = std::make_unique<LinearSolver>(s.matrices().pattern, s.matrices().stiffness,
+                                               s.p.name.c_str(), s.p.solver, s.matrices().rigid);
+  s.statics->solve(s.motion.f, s.motion.u);
   std::fill(s.motion.v.begin(), s.motion.v.end(), 0.);
   std::fill(s.motion.a.begin(), s.motion.a.end(), 0.);
   s.start_ledger();

@@ -14,8 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "fem/linear_solver.h"
 #include "fem/materials/model.h"
 #include "fem/structure.h"
+#include "fem/time_integration.h"
 
 namespace trackbed::fem {
 
@@ -64,11 +66,23 @@ enum class Support : std::uint8_t {
 };
 
 /// Springs and dashpots per area on a boundary [N/m3], [N s/m3]: a Winkler or Kelvin–Voigt bed
-/// under a body, or a viscous boundary (normal ρc_p, shear ρc_s).
+/// under a body, or an absorbing boundary.
+///
+/// Absorbing: dashpots ρc_p normal and ρc_s along the boundary are added, of the material that meets
+/// it (Lysmer, Kuhlemeyer 1969; c_p² = (λ+2μ)/ρ, c_s² = μ/ρ); with `distance` R > 0 [m] from the
+/// load also springs α G/R, α = 4/3 normal and 2/3 along (viscous-spring boundary, Liu, Du, Du, Wang,
+/// Wu 2006), which hold the body for static loads.
 struct Bed {
   std::string boundary;
   double normal_stiffness = 0, shear_stiffness = 0;
   double normal_dashpot = 0, shear_dashpot = 0;
+  bool absorbing = false;
+  double distance = 0;
+
+  bool has_dashpots() const { return absorbing || normal_dashpot > 0 || shear_dashpot > 0; }
+  bool has_springs(bool normal) const {
+    return (normal ? normal_stiffness : shear_stiffness) > 0 || (absorbing && distance > 0);
+  }
 };
 
 /// A resultant force [N] spread evenly over a boundary, or over the rectangle on it (seen from
@@ -108,6 +122,8 @@ struct ElasticBodyParameters {
   Vec gravity{0, 0, 0};  ///< acceleration [m/s2] as body force; {0,0,-9.81} to switch it on
   bool start_in_equilibrium = true;  ///< held bodies: start at rest under gravity, not falling
   bool newmark = false;              ///< average acceleration instead of generalised-α
+  TimeScheme scheme = TimeScheme::automatic;
+  SolverKind solver = SolverKind::automatic;
   Mass mass = Mass::automatic;
   double rho_inf = 0.9;  ///< spectral radius at high frequency [-], 0 … 1
 };
@@ -138,6 +154,7 @@ class ElasticBody final : public Structure {
   double mass() const override;
   double least_surface_mass() const override;
   double largest_frequency() const override;
+  double largest_step() const override;
   int unknowns() const override;
   StructureEnergy energy() const override;
   void save(std::vector<double>& state) const override;
@@ -149,6 +166,9 @@ class ElasticBody final : public Structure {
 
   /// Whether the step as set goes without a solve.
   bool is_explicit() const;
+
+  /// Iterations of the last linear solve; 0 for a direct or no solve.
+  int solver_iterations() const;
 
   /// Shifts the body at rest (its reference) by this much [m]: the sleeper set down on a packed
   /// bed.

@@ -170,4 +170,15 @@ std::array<double, 6> ElementIntegrals::centre_stress(const Cell& cell,
           mu * (slope[0][2] + slope[2][0]), mu * (slope[0][1] + slope[1][0])};
 }
 
+std::array<double, 3> ElementIntegrals::mean_elastic() const {
+  std::array<double, 3> mean{};
+  const double share = 1. / static_cast<double>(out_.young.size());
+  for (std::size_t q = 0; q < out_.young.size(); ++q) {
+    mean[0] += share * out_.young[q];
+    mean[1] += share * out_.poisson[q];
+    mean[2] += share * out_.density[q];
+  }
+  return mean;
+}
+
 }  // namespace trackbed::fem

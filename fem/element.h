@@ -25,6 +25,9 @@ class ElementIntegrals {
   void compute(const Cell&);
   dealii::FullMatrix<double> stiffness, mass;
 
+  /// Mean E, ν, ρ of the points of the last cell computed.
+  std::array<double, 3> mean_elastic() const;
+
   /// Stress at the cell's centre for its nodal displacements.
   std::array<double, 6> centre_stress(const Cell&, const std::vector<Vec>& displacement);
 

@@ -1,6 +1,9 @@
 #include "fem/linear_solver.h"
 
-#include <petscmat.h>
+#include <petscksp.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "fem/session.h"
@@ -91,6 +94,150 @@ void Factor::solve(const std::vector<double>& b, std::vector<double>& x) const {
   VecResetArray(petsc_->b);
   VecResetArray(petsc_->x);
   check(code, "linear solve");
+}
+
+// --- by name ---
+
+struct LinearSolver::Krylov {
+  // The matrix borrows these arrays.
+  std::vector<PetscInt> start, column;
+  std::vector<PetscScalar> value;
+  Mat A = nullptr;
+  KSP ksp = nullptr;
+  ::Vec b = nullptr, x = nullptr;
+  ~Krylov() {
+    PetscBool ended = PETSC_FALSE;
+    PetscFinalized(&ended);
+    if (ended) return;
+    KSPDestroy(&ksp);
+    VecDestroy(&b);
+    VecDestroy(&x);
+    MatDestroy(&A);
+  }
+};
+
+namespace {
+
+constexpr int kLargestDirect = 60000;  // unknowns
+
+// Orthonormal, as PETSc wants them; motions that supports leave nothing of are dropped.
+MatNullSpace near_null_space(const std::vector<std::vector<double>>& rigid) {
+  std::vector<std::vector<double>> kept;
+  for (std::vector<double> m : rigid) {
+    const double size = std::sqrt(dot(m, m));
+    for (int pass = 0; pass < 2; ++pass)
+      for (const auto& k : kept) {
+        const double share = dot(k, m);
+        for (std::size_t i = 0; i < m.size(); ++i) m[i] -= share * k[i];
+      }
+    const double rest = std::sqrt(dot(m, m));
+    if (!(rest > 1e-8 * size)) continue;
+    for (double& c : m) c /= rest;
+    kept.push_back(std::move(m));
+  }
+  std::vector<::Vec> vectors;
+  for (const auto& k : kept) {
+    ::Vec v = nullptr;
+    VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(k.size()), &v);
+    PetscScalar* to = nullptr;
+    VecGetArray(v, &to);
+    std::copy(k.begin(), k.end(), to);
+    VecRestoreArray(v, &to);
+    vectors.push_back(v);
+  }
+  MatNullSpace space = nullptr;
+  MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(vectors.size()),
+                     vectors.data(), &space);
+  for (::Vec& v : vectors) VecDestroy(&v);
+  return space;
+}
+
+}  // namespace
+
+std::vector<std::string> solver_names() {
+  return {"automatic", "direct", "cg_gamg", "cg_boomeramg"};
+}
+
+SolverKind solver_of(const std::string& name) {
+  const auto names = solver_names();  // in the order of the enumeration
+  const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+  return static_cast<SolverKind>(at % static_cast<long>(names.size()));
+}
+
+SolverKind chosen_solver(SolverKind kind, int unknowns) {
+  if (kind != SolverKind::automatic) return kind;
+  return unknowns <= kLargestDirect ? SolverKind::direct : SolverKind::cg_gamg;
+}
+
+LinearSolver::LinearSolver(const Pattern& p, const std::vector<double>& values, const char* what,
+                           SolverKind kind, const std::vector<std::vector<double>>& rigid) {
+  start_session();
+  const int n = p.rows();
+  kind = chosen_solver(kind, n);
+  if (kind == SolverKind::direct) {
+    factor_ = std::make_unique<Factor>(p, values, what);
+    return;
+  }
+  krylov_ = std::make_unique<Krylov>();
+  Krylov& k = *krylov_;
+  k.start.assign(p.start.begin(), p.start.end());
+  k.column.assign(p.column.begin(), p.column.end());
+  k.value.assign(values.begin(), values.end());
+  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
+  struct Restore {
+    ~Restore() { PetscPopErrorHandler(); }
+  } restore;
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, k.start.data(), k.column.data(),
+                                  k.value.data(), &k.A),
+        what);
+  MatSetOption(k.A, MAT_SYMMETRIC, PETSC_TRUE);
+  MatSetOption(k.A, MAT_SPD, PETSC_TRUE);
+  if (!rigid.empty()) {
+    MatNullSpace space = near_null_space(rigid);
+    MatSetNearNullSpace(k.A, space);
+    MatNullSpaceDestroy(&space);
+  }
+  check(KSPCreate(PETSC_COMM_SELF, &k.ksp), what);
+  KSPSetOperators(k.ksp, k.A, k.A);
+  KSPSetType(k.ksp, KSPCG);
+  KSPSetNormType(k.ksp, KSP_NORM_UNPRECONDITIONED);
+  KSPSetTolerances(k.ksp, 1e-10, 1e-300, 1e10, 1000);
+  KSPSetInitialGuessNonzero(k.ksp, PETSC_TRUE);
+  PC pc = nullptr;
+  KSPGetPC(k.ksp, &pc);
+  if (kind == SolverKind::cg_gamg) {
+    PCSetType(pc, PCGAMG);
+  } else {
+    check(PCSetType(pc, PCHYPRE), what);
+    check(PCHYPRESetType(pc, "boomeramg"), what);
+  }
+  check(KSPSetUp(k.ksp), what);
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, &k.b), what);
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, &k.x), what);
+}
+
+LinearSolver::~LinearSolver() = default;
+LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
+
+void LinearSolver::solve(const std::vector<double>& b, std::vector<double>& x) const {
+  x.resize(b.size());
+  if (factor_) return factor_->solve(b, x);
+  Krylov& k = *krylov_;
+  VecPlaceArray(k.b, b.data());
+  VecPlaceArray(k.x, x.data());
+  const PetscErrorCode code = KSPSolve(k.ksp, k.b, k.x);
+  VecResetArray(k.b);
+  VecResetArray(k.x);
+  check(code, "linear solve");
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  KSPGetConvergedReason(k.ksp, &reason);
+  PetscInt count = 0;
+  KSPGetIterationNumber(k.ksp, &count);
+  iterations_ = static_cast<int>(count);
+  if (reason < 0)
+    throw RunError(text("linear solve: conjugate gradients did not converge in ", iterations_,
+                        " iterations (PETSc reason ", static_cast<int>(reason),
+                        "); try the direct solver"));
 }
 
 }  // namespace trackbed::fem

@@ -159,6 +159,8 @@ Vec ModalStructure::load_displacement(int load) const {
   return u;
 }
 
+double ModalStructure::gauge(int k) const { return dot(m_.gauges.at(k).shape, q_); }
+
 double ModalStructure::largest_frequency() const {
   return *std::max_element(m_.omega.begin(), m_.omega.end());
 }

@@ -21,7 +21,9 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem/structure.h"
@@ -35,6 +37,27 @@ struct ModalLoad {
   std::vector<double> shape;  ///< x, y, z of each mode: 3 m
 };
 
+/// Something observed: a linear function of the modal coordinates (a moment, a point's motion).
+struct ModalGauge {
+  std::string name;
+  std::vector<double> shape;  ///< m
+};
+
+/// What the reduction costs, against the full body. Deflections are those of the static answer; of
+/// a body that is not held, of its elastic part (inertia relief).
+struct ReductionReport {
+  int unknowns = 0;  ///< of the full body
+  int modes = 0;
+  std::vector<std::pair<double, double>> frequencies;  ///< lowest elastic [Hz]: full, reduced
+  double largest_frequency_error = 0;                  ///< of those, relative
+  /// Work of a unit pressure on a contact boundary through the deflection it makes: 1 −
+  /// reduced/full, the largest of all contact boundaries.
+  double pressure_error = 0;
+  /// The same for one force on the boundary's middle node, along its normal: the local dent. The
+  /// mesh sets how soft it is; a modal body leaves most of it out.
+  double node_error = 0;
+};
+
 struct ModalModel {
   std::string name = "body";  ///< for messages
   SurfaceMesh surface;
@@ -43,9 +66,11 @@ struct ModalModel {
   double damping_stiffness = 0;  ///< α_K [s]
   std::vector<double> shape;     ///< Φ: row 3 node + direction, m columns [kg^-1/2]
   std::vector<ModalLoad> loads;
+  std::vector<ModalGauge> gauges;
   std::vector<double> gravity;  ///< modal force of the body's weight; empty: none
   bool start_in_equilibrium = false;
   double mass = 0, least_surface_mass = 0;
+  std::shared_ptr<const ReductionReport> report = {};  ///< of a reduced body
   /// Writes the fields of the whole body for its modal coordinates and velocities; may be empty.
   std::function<void(const std::string& file, const std::vector<double>& q,
                      const std::vector<double>& v)>
@@ -59,6 +84,7 @@ class ModalStructure final : public Structure {
 
   const SurfaceMesh& surface() const override { return m_.surface; }
   void set_step(double dt) override;
+  double explicit_limit() const override { return std::numeric_limits<double>::infinity(); }
   void predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const override;
   void advance(const std::vector<Vec>& surface_forces) override;
   void motion(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const override;
@@ -76,6 +102,7 @@ class ModalStructure final : public Structure {
   void write_vtu(const std::string& file) const override;
 
   const ModalModel& model() const { return m_; }
+  double gauge(int k) const;  ///< its value now
   int modes() const { return static_cast<int>(m_.omega.size()); }
   const std::vector<double>& coordinates() const { return q_; }
 

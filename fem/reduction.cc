@@ -21,7 +21,7 @@ constexpr int kLargestSurface = 1500;  // unknowns of a surface that is condense
 
 void check_damping(const BodyModel& b) {
   for (const Bed& bed : b.p.beds)
-    if (bed.normal_dashpot > 0 || bed.shear_dashpot > 0)
+    if (bed.has_dashpots())
       throw InputError(text(b.p.name, ": dashpots on boundary '", bed.boundary,
                             "' couple the modes; a reduced body cannot have them, reduction none "
                             "can"));
@@ -289,8 +289,14 @@ ModalModel model_of(const std::shared_ptr<BodyModel>& body, std::vector<Column> 
 
 }  // namespace
 
+Reduction reduction_of(const std::string& name) {
+  return name == "condensed" ? Reduction::condensed
+         : name == "modal"   ? Reduction::modal
+                             : Reduction::none;
+}
+
 std::unique_ptr<ModalStructure> reduced_body(ElasticBodyParameters parameters, Reduction reduction,
-                                             int modes, ReductionReport* report) {
+                                             int modes) {
   if (reduction == Reduction::none)
     throw InputError(parameters.name + ": reduction none has no reduced body");
   const auto body = std::make_shared<BodyModel>(std::move(parameters));
@@ -326,8 +332,11 @@ std::unique_ptr<ModalStructure> reduced_body(ElasticBodyParameters parameters, R
     basis.add(x);
   }
   const std::vector<double> omega = basis.diagonalise(zero);
-  if (report) fill(*report, b, normal, basis, omega, rigid, factor, shift);
-  return std::make_unique<ModalStructure>(model_of(body, std::move(basis.shape), omega, held));
+  auto report = std::make_shared<ReductionReport>();
+  fill(*report, b, normal, basis, omega, rigid, factor, shift);
+  ModalModel model = model_of(body, std::move(basis.shape), omega, held);
+  model.report = std::move(report);
+  return std::make_unique<ModalStructure>(std::move(model));
 }
 
 }  // namespace trackbed::fem

@@ -16,7 +16,6 @@
 #pragma once
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fem/elastic_body.h"
@@ -26,25 +25,12 @@ namespace trackbed::fem {
 
 enum class Reduction : std::uint8_t { none, condensed, modal };
 
-/// What the reduction costs, against the full body. Deflections are those of the static answer; of
-/// a body that is not held, of its elastic part (inertia relief).
-struct ReductionReport {
-  int unknowns = 0;  ///< of the full body
-  int modes = 0;
-  std::vector<std::pair<double, double>> frequencies;  ///< lowest elastic [Hz]: full, reduced
-  double largest_frequency_error = 0;                  ///< of those, relative
-  /// Work of a unit pressure on a contact boundary through the deflection it makes: 1 −
-  /// reduced/full, the largest of all contact boundaries.
-  double pressure_error = 0;
-  /// The same for one force on the boundary's middle node, along its normal: the local dent. The
-  /// mesh sets how soft it is; a modal body leaves most of it out.
-  double node_error = 0;
-};
+/// By name; for a parameter whose choices are checked already.
+Reduction reduction_of(const std::string& name);
 
 /// Reduced to `modes` lowest elastic modes and what the method adds. \throws InputError: as
 /// ElasticBody; damping that modes do not share (dashpots, unequal Rayleigh constants); a contact
-/// surface too large to condense.
-std::unique_ptr<ModalStructure> reduced_body(ElasticBodyParameters, Reduction, int modes,
-                                             ReductionReport* = nullptr);
+/// surface too large to condense. Its model() holds the report.
+std::unique_ptr<ModalStructure> reduced_body(ElasticBodyParameters, Reduction, int modes);
 
 }  // namespace trackbed::fem

@@ -10,6 +10,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,8 @@ class Structure {
       const = 0;  ///< least lumped mass of a surface node that can move [kg]
   virtual double largest_frequency()
       const = 0;  ///< upper estimate of ω_max of the full model [rad/s]
+  /// Largest time step [s] of an explicit scheme that was asked for by name; others: infinite.
+  virtual double largest_step() const { return std::numeric_limits<double>::infinity(); }
   virtual int unknowns() const = 0;
 
   virtual StructureEnergy energy() const = 0;  ///< computed on demand

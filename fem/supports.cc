@@ -176,8 +176,8 @@ std::string free_motion(const Discretisation& body, const Unknowns& unknowns,
             n[c] = p.normal[d] * p.normal[c];
             t[c] = (c == d) - n[c];
           }
-          if (bed.normal_stiffness > 0) hold(row(p.place, n));
-          if (bed.shear_stiffness > 0) hold(row(p.place, t));
+          if (bed.has_springs(true)) hold(row(p.place, n));
+          if (bed.has_springs(false)) hold(row(p.place, t));
         }
     }
   }
@@ -198,6 +198,20 @@ std::string free_motion(const Discretisation& body, const Unknowns& unknowns,
       for (int j = k + 1; j < 6; ++j) gram[i][j] -= gram[i][k] * gram[k][j] / gram[k][k];
   }
   return "";
+}
+
+std::vector<std::vector<double>> rigid_motions(const Discretisation& body,
+                                               const Unknowns& unknowns) {
+  std::vector<std::vector<double>> motions(6, std::vector<double>(unknowns.count, 0.));
+  for (int i = 0; i < body.nodes(); ++i) {
+    const Vec& x = body.position[i];
+    const Vec at[6] = {{1, 0, 0},       {0, 1, 0},      {0, 0, 1},
+                       {0, -x[2], x[1]}, {x[2], 0, -x[0]}, {-x[1], x[0], 0}};
+    for (int m = 0; m < 6; ++m)
+      for (int d = 0; d < 3; ++d)
+        if (const int k = unknowns.of_node[i][d]; k >= 0) motions[m][k] = at[m][d];
+  }
+  return motions;
 }
 
 }  // namespace trackbed::fem

@@ -20,4 +20,7 @@ Unknowns number_unknowns(const Discretisation&, const std::string& body,
 /// "" if supports and beds hold the body against all six rigid motions; else what is free.
 std::string free_motion(const Discretisation&, const Unknowns&, const std::vector<Bed>&);
 
+/// Three shifts and three turns about the origin, as values of the unknowns.
+std::vector<std::vector<double>> rigid_motions(const Discretisation&, const Unknowns&);
+
 }  // namespace trackbed::fem

@@ -12,6 +12,8 @@ using Line = std::pair<int, int>;
 
 Line line(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
+}  // namespace
+
 void mark_edges(SurfaceMesh& s) {
   std::map<Line, int> quads_at, quads_at_image;
   const auto each = [&](auto&& visit) {
@@ -32,8 +34,6 @@ void mark_edges(SurfaceMesh& s) {
     s.edges[q][k] = edge;
   });
 }
-
-}  // namespace
 
 ContactSurface contact_surface(const Discretisation& body, const Unknowns& unknowns,
                                const std::string& name,

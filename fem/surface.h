@@ -17,4 +17,7 @@ struct ContactSurface {
 ContactSurface contact_surface(const Discretisation&, const Unknowns&, const std::string& body,
                                const std::vector<std::string>& boundaries);
 
+/// Fills `edges` from quads and images.
+void mark_edges(SurfaceMesh&);
+
 }  // namespace trackbed::fem

@@ -15,7 +15,7 @@ std::unique_ptr<Structure> build(const SubgradeSite& site, const Values& values)
   p.materials = {soil};
   p.mesh.layers = {{depth, cells_over(site, depth), 0}};
   p.mesh.corner[2] -= depth;
-  return std::make_unique<ElasticBody>(std::move(p));
+  return make_body(site, std::move(p));
 }
 
 const double kMost = std::numeric_limits<double>::infinity();

@@ -37,7 +37,7 @@ std::unique_ptr<Structure> build(const SubgradeSite& site, const Values& values)
       for (std::size_t k = 0; k < p.materials.size(); ++k)
         p.mesh.region_material[text("layer_", k + 1)] = static_cast<int>(k);
   }
-  return std::make_unique<ElasticBody>(std::move(p));
+  return make_body(site, std::move(p));
 }
 
 const RegisterSubgrade here{

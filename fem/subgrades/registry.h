@@ -11,6 +11,7 @@
 #include "base/parameter.h"
 #include "fem/elastic_body.h"
 #include "fem/point_bed.h"
+#include "fem/reduction.h"
 
 namespace trackbed::fem {
 
@@ -23,6 +24,11 @@ struct SubgradeSite {
   bool periodic_x = false, periodic_y = false;  ///< else rollers at the sides
   bool newmark = false;
   double rho_inf = 0.9;
+  TimeScheme scheme = TimeScheme::automatic;
+  SolverKind solver = SolverKind::automatic;
+  Reduction reduction = Reduction::none;
+  int modes = 20;  ///< of a reduced body
+  bool absorbing_sides = false, absorbing_bottom = false;  ///< instead of rollers and a fixed base
 };
 
 /// What the user wrote, key -> text; every key of the model is there (defaults filled in).
@@ -51,6 +57,9 @@ struct RegisterSubgrade {
 double number(const Values&, const std::string& key);
 /// The box under the site with its sides held; the model adds layers and materials.
 ElasticBodyParameters box_under(const SubgradeSite&);
+/// The body with the site's time scheme, solver, absorbing boundaries and reduction: what a model's
+/// build returns.
+std::unique_ptr<Structure> make_body(const SubgradeSite&, ElasticBodyParameters);
 /// The bed of points on the site; the model adds stiffness, dashpot, mass.
 PointBedParameters points_under(const SubgradeSite&);
 /// Cells over a thickness [m] for the site's wanted size.

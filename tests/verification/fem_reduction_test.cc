@@ -84,9 +84,8 @@ TEST(Reduction, FollowsTheFullBody) {
 }
 
 TEST(Reduction, ReportsItsError) {
-  ReductionReport modal, condensed;
-  reduced_body(sleeper(), Reduction::modal, 20, &modal);
-  reduced_body(soil(), Reduction::condensed, 5, &condensed);
+  const ReductionReport modal = *reduced_body(sleeper(), Reduction::modal, 20)->model().report;
+  const ReductionReport condensed = *reduced_body(soil(), Reduction::condensed, 5)->model().report;
   for (const auto& r : {modal, condensed}) {
     EXPECT_EQ(r.frequencies.size(), 5);
     EXPECT_LT(r.largest_frequency_error, 1e-6);
