@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 using Row = Eigen::Matrix<double, 1, 12>;  // of an element: six motions of each of its two nodes
 
 struct Section {
-  double EA, GJ, EIy, EIz, GA;      // y: vertical bending (about y), z: sideways (about z)
+  double EA, GJ, EIy, EIz, GA;        // y: vertical bending (about y), z: sideways (about z)
   double mass, inertia_y, inertia_z;  // per length
 };
 
@@ -43,9 +43,9 @@ Section section_of(const BeamParameters& p) {
 
 // What moves at ξ = x/L of an element, as rows of its twelve motions.
 struct Kinematics {
-  Row ux, uy, uz, tx, ty, tz;              // displacement and turn of the line
-  Row stretch, twist, bend_y, bend_z;      // their slopes
-  Row shear_y, shear_z;                    // in the x-z and the x-y plane
+  Row ux, uy, uz, tx, ty, tz;          // displacement and turn of the line
+  Row stretch, twist, bend_y, bend_z;  // their slopes
+  Row shear_y, shear_z;                // in the x-z and the x-y plane
 };
 
 // Bending in one plane: w and ψ of (w1, ψ1, w2, ψ2), φ = 12 EI/(GA L²).
@@ -60,19 +60,20 @@ Bending bending(double t, double L, double phi) {
          c * L * (t - 2 * t * t + t * t * t + phi / 2 * (t - t * t)),
          c * (3 * t * t - 2 * t * t * t + phi * t),
          c * L * (-t * t + t * t * t - phi / 2 * (t - t * t))};
-  b.slope_w = {c / L * (-6 * t + 6 * t * t - phi), c * (1 - 4 * t + 3 * t * t + phi / 2 * (1 - 2 * t)),
+  b.slope_w = {c / L * (-6 * t + 6 * t * t - phi),
+               c * (1 - 4 * t + 3 * t * t + phi / 2 * (1 - 2 * t)),
                c / L * (6 * t - 6 * t * t + phi), c * (-2 * t + 3 * t * t - phi / 2 * (1 - 2 * t))};
   b.psi = {c * 6 / L * (t * t - t), c * (1 - 4 * t + 3 * t * t + phi * (1 - t)),
            c * 6 / L * (t - t * t), c * (3 * t * t - 2 * t + phi * t)};
-  b.slope_psi = {c * 6 / L / L * (2 * t - 1), c / L * (6 * t - 4 - phi), c * 6 / L / L * (1 - 2 * t),
-                 c / L * (6 * t - 2 + phi)};
+  b.slope_psi = {c * 6 / L / L * (2 * t - 1), c / L * (6 * t - 4 - phi),
+                 c * 6 / L / L * (1 - 2 * t), c / L * (6 * t - 2 + phi)};
   return b;
 }
 
 Kinematics kinematics(double t, double L, const Section& s) {
   Kinematics k;
-  for (Row* r : {&k.ux, &k.uy, &k.uz, &k.tx, &k.ty, &k.tz, &k.stretch, &k.twist, &k.bend_y, &k.bend_z,
-                 &k.shear_y, &k.shear_z})
+  for (Row* r : {&k.ux, &k.uy, &k.uz, &k.tx, &k.ty, &k.tz, &k.stretch, &k.twist, &k.bend_y,
+                 &k.bend_z, &k.shear_y, &k.shear_z})
     r->setZero();
   const double linear[2] = {1 - t, t}, slope[2] = {-1 / L, 1 / L};
   const Bending vertical = bending(t, L, 12 * s.EIy / (s.GA * L * L));
@@ -253,9 +254,11 @@ std::unique_ptr<ModalStructure> make_beam(const BeamParameters& p) {
       add(Ke, s.GA, k.shear_y), add(Ke, s.GA, k.shear_z);
       add(Ke, p.bed, k.uz);
       add(Me, s.mass, k.ux), add(Me, s.mass, k.uy), add(Me, s.mass, k.uz);
-      add(Me, s.inertia_y + s.inertia_z, k.tx), add(Me, s.inertia_y, k.ty), add(Me, s.inertia_z, k.tz);
+      add(Me, s.inertia_y + s.inertia_z, k.tx), add(Me, s.inertia_y, k.ty),
+          add(Me, s.inertia_z, k.tz);
       weight.segment<12>(6 * e) +=
-          w * s.mass * (p.gravity[0] * k.ux + p.gravity[1] * k.uy + p.gravity[2] * k.uz).transpose();
+          w * s.mass *
+          (p.gravity[0] * k.ux + p.gravity[1] * k.uy + p.gravity[2] * k.uz).transpose();
     }
   // On a plane of symmetry: no motion along x, no turn about y and z.
   std::vector<int> free;
@@ -286,9 +289,10 @@ std::unique_ptr<ModalStructure> make_beam(const BeamParameters& p) {
     MatrixXd mean = MatrixXd::Zero(3, n);
     const int pieces = l.length > 0 ? 64 : 1;
     for (int i = 0; i < pieces; ++i)
-      line.at(l.centre + l.length * ((i + 0.5) / pieces - 0.5), [&](int first, const Kinematics& k) {
-        mean += point_rows(k, 0, p.height / 2) * modes.shape.middleRows<12>(first) / pieces;
-      });
+      line.at(l.centre + l.length * ((i + 0.5) / pieces - 0.5),
+              [&](int first, const Kinematics& k) {
+                mean += point_rows(k, 0, p.height / 2) * modes.shape.middleRows<12>(first) / pieces;
+              });
     ModalLoad load{l.name, l.direction, {}};
     for (int d = 0; d < 3; ++d)
       for (int i = 0; i < n; ++i) load.shape.push_back(mean(d, i));
@@ -306,8 +310,7 @@ std::unique_ptr<ModalStructure> make_beam(const BeamParameters& p) {
   }
   model.mass = s.mass * (p.high_x - p.low_x);
   // A quarter of a node's share of its ring: contacts at a section's corner also turn it.
-  model.least_surface_mass =
-      s.mass * line.L / 2 / (2 * (p.cells_y + p.cells_z)) / 4;
+  model.least_surface_mass = s.mass * line.L / 2 / (2 * (p.cells_y + p.cells_z)) / 4;
   model.surface = std::move(surface.mesh);
   return std::make_unique<ModalStructure>(std::move(model));
 }

@@ -32,17 +32,17 @@ struct BeamParameters {
   int cells_y = 2, cells_z = 1;                ///< of the contact surface
   double young = 0, poisson = 0, density = 0;  ///< [Pa], -, [kg/m3]
   double shear_factor = 5. / 6;                ///< κ
-  double bending = 0;                          ///< EI of vertical bending instead [N m2]; 0 = E b h³/12
-  bool shear_rigid = false;                    ///< Euler–Bernoulli, to compare
-  double bed = 0;                              ///< Winkler springs along the line, vertical [N/m2]
-  bool half = false;                           ///< low_x is a plane of symmetry
+  double bending = 0;        ///< EI of vertical bending instead [N m2]; 0 = E b h³/12
+  bool shear_rigid = false;  ///< Euler–Bernoulli, to compare
+  double bed = 0;            ///< Winkler springs along the line, vertical [N/m2]
+  bool half = false;         ///< low_x is a plane of symmetry
   std::vector<BeamLoad> loads;
   Vec gravity{0, 0, 0};  ///< [m/s2]
 };
 
 /// The beam at rest. Its gauges are the bending moments M = EI ψ′ [N m] at the nodes along it,
-/// sagging positive. \throws InputError: sizes and moduli that are not positive, ν outside (−1, ½), a
-/// load beyond its ends.
+/// sagging positive. \throws InputError: sizes and moduli that are not positive, ν outside (−1, ½),
+/// a load beyond its ends.
 std::unique_ptr<ModalStructure> make_beam(const BeamParameters&);
 
 }  // namespace trackbed::fem

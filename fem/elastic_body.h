@@ -68,10 +68,10 @@ enum class Support : std::uint8_t {
 /// Springs and dashpots per area on a boundary [N/m3], [N s/m3]: a Winkler or Kelvin–Voigt bed
 /// under a body, or an absorbing boundary.
 ///
-/// Absorbing: dashpots ρc_p normal and ρc_s along the boundary are added, of the material that meets
-/// it (Lysmer, Kuhlemeyer 1969; c_p² = (λ+2μ)/ρ, c_s² = μ/ρ); with `distance` R > 0 [m] from the
-/// load also springs α G/R, α = 4/3 normal and 2/3 along (viscous-spring boundary, Liu, Du, Du, Wang,
-/// Wu 2006), which hold the body for static loads.
+/// Absorbing: dashpots ρc_p normal and ρc_s along the boundary are added, of the material that
+/// meets it (Lysmer, Kuhlemeyer 1969; c_p² = (λ+2μ)/ρ, c_s² = μ/ρ); with `distance` R > 0 [m] from
+/// the load also springs α G/R, α = 4/3 normal and 2/3 along (viscous-spring boundary, Liu, Du, Du,
+/// Wang, Wu 2006), which hold the body for static loads.
 struct Bed {
   std::string boundary;
   double normal_stiffness = 0, shear_stiffness = 0;

@@ -33,7 +33,8 @@ class Factor {
   std::unique_ptr<Petsc> petsc_;
 };
 
-/// A symmetric positive definite matrix made ready to be solved with many right-hand sides, by name:
+/// A symmetric positive definite matrix made ready to be solved with many right-hand sides, by
+/// name:
 ///   direct        MUMPS, as Factor: exact, memory grows as n^(4/3)
 ///   cg_gamg       conjugate gradients with PETSc's smoothed aggregation multigrid
 ///   cg_boomeramg  conjugate gradients with hypre's BoomerAMG (nodal coarsening by unknowns of one

@@ -85,7 +85,8 @@ class PointBed final : public Structure {
                             " is not finite; the time step is probably too large"));
       force_[surface_.same_as[i]] += forces[i][2];
     }
-    const double am = scheme_.alpha_m, af = scheme_.alpha_f, beta = scheme_.beta, gamma = scheme_.gamma;
+    const double am = scheme_.alpha_m, af = scheme_.alpha_f, beta = scheme_.beta,
+                 gamma = scheme_.gamma;
     const double dt = dt_, w = 1 - af;
     for (std::size_t i = 0; i < area_.size(); ++i) {
       if (!(area_[i] > 0)) continue;  // an image

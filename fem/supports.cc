@@ -205,7 +205,7 @@ std::vector<std::vector<double>> rigid_motions(const Discretisation& body,
   std::vector<std::vector<double>> motions(6, std::vector<double>(unknowns.count, 0.));
   for (int i = 0; i < body.nodes(); ++i) {
     const Vec& x = body.position[i];
-    const Vec at[6] = {{1, 0, 0},       {0, 1, 0},      {0, 0, 1},
+    const Vec at[6] = {{1, 0, 0},        {0, 1, 0},        {0, 0, 1},
                        {0, -x[2], x[1]}, {x[2], 0, -x[0]}, {-x[1], x[0], 0}};
     for (int m = 0; m < 6; ++m)
       for (int d = 0; d < 3; ++d)

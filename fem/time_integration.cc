@@ -46,8 +46,7 @@ double largest_damping(const Matrices& m) {
 
 double limit_of(const Scheme& scheme, const Matrices& m) {
   const double omega = largest_frequency(m), xi = largest_damping(m) / (2 * omega);
-  if (scheme.kind == TimeScheme::zhai)
-    return (2 * std::sqrt(1 + 4 * xi * xi) - 4 * xi) / omega;
+  if (scheme.kind == TimeScheme::zhai) return (2 * std::sqrt(1 + 4 * xi * xi) - 4 * xi) / omega;
   return 2 / omega * (std::sqrt(1 + xi * xi) - xi);
 }
 
@@ -73,7 +72,8 @@ void Stepper::set_step(double dt) {
     throw InputError(text("time step of the structure: ", dt, " s given, must be positive"));
   if (dt > largest_step_)
     throw InputError(text("time step of the structure: ", dt, " s is over the limit ",
-                          largest_step_, " s of its explicit scheme; take a smaller one, a coarser "
+                          largest_step_,
+                          " s of its explicit scheme; take a smaller one, a coarser "
                           "mesh or an implicit scheme"));
   dt_ = dt;
   explicit_ = dt <= explicit_limit_ || std::isfinite(largest_step_);

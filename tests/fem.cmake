@@ -7,6 +7,8 @@ target_compile_definitions(fem_meshes_test PRIVATE TRACKBED_MESHES="${PROJECT_SO
 trackbed_test(fem_statics verification trackbed_fem)
 trackbed_test(fem_dynamics verification trackbed_fem)
 trackbed_test(fem_reduction verification trackbed_fem)
+trackbed_test(fem_beam verification trackbed_fem)
+trackbed_test(fem_schemes verification trackbed_fem)
 # Looks at the library's inner parts, and so at deal.II.
 trackbed_test(fem_convergence verification trackbed_fem trackbed_dealii)
 

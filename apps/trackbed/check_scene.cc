@@ -137,6 +137,16 @@ void check_sleeper(const Check& c) {
         }))
       c.refuse("Sleeper/Seats", "Container/Half by symmetry cuts one seat of several in two");
   }
+  if (s.reduction != "none" && s.model != "elastic")
+    c.refuse("Sleeper/Reduction", "holds for Sleeper/Model = elastic only");
+  if (s.model == "elastic" && s.reduction == "none" && c.scene.numerics.scheme == "static")
+    c.refuse("Numerics/Structure scheme",
+             "a sleeper on grains is not held, so a static answer does not exist; Sleeper/Model = "
+             "rigid or beam, or another scheme");
+  if (s.model == "beam" && !s.mesh.empty())
+    c.refuse("Sleeper/Mesh", "holds for Sleeper/Model = elastic only; a beam is a block");
+  if (s.model == "beam" && s.pad_thickness > 0)
+    c.refuse("Sleeper/Pad thickness", "a pad is made with Sleeper/Model = elastic only");
   if (s.vertical_only && s.model != "rigid")
     c.refuse("Sleeper/Vertical only", "holds for Sleeper/Model = rigid only");
   if (!s.mesh.empty() && s.pad_thickness > 0)
@@ -155,7 +165,16 @@ void check_shoulder(const Check& c) {
 
 void check_loading(const Check& c) {
   const auto& l = c.scene.loading;
-  if (l.least >= l.largest)
+  if (l.waveform == "table" && l.table.empty())
+    c.refuse("Loading/Waveform", "needs Loading/Table, a CSV file with time_s and load_N");
+  if (l.waveform != "table" && !l.table.empty())
+    c.refuse("Loading/Table", "is used only with Loading/Waveform = table, not with " + l.waveform);
+  if (l.push != "none" && c.scene.sleeper.vertical_only)
+    c.refuse("Loading/Push", "a sleeper with Sleeper/Vertical only = true cannot be pushed");
+  if (l.push == "lateral" && c.scene.container.half)
+    c.refuse("Loading/Push",
+             "Container/Half by symmetry mirrors the push as well; use the whole sleeper");
+  if (l.waveform != "table" && l.least >= l.largest)
     c.refuse("Loading/Least",
              "less than Loading/Largest = " + shortest(l.largest) + " N is needed");
 }

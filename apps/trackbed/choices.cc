@@ -4,7 +4,9 @@
 #include "dem/grading/curve.h"
 #include "dem/grading/sieve_size.h"
 #include "dem/grain/library.h"
+#include "fem/linear_solver.h"
 #include "fem/subgrades/registry.h"
+#include "fem/time_integration.h"
 
 namespace trackbed::apps {
 
@@ -22,7 +24,13 @@ std::vector<std::string> subgrade_models() {
   return names;
 }
 
-std::vector<std::string> waveforms() { return {"sine", "triangle"}; }
+std::vector<std::string> waveforms() { return {"sine", "haversine", "triangle", "table"}; }
+
+std::vector<std::string> reductions() { return {"none", "condensed", "modal"}; }
+
+std::vector<std::string> time_schemes() { return fem::time_scheme_names(); }
+
+std::vector<std::string> linear_solvers() { return fem::solver_names(); }
 
 std::vector<std::string> exchange_schedules() {
   std::vector<std::string> names;

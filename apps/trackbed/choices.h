@@ -13,6 +13,9 @@ std::vector<std::string> gradation_curves();  ///< without "table"
 std::vector<std::string> contact_laws();
 std::vector<std::string> subgrade_models();  ///< "rigid" first
 std::vector<std::string> waveforms();
+std::vector<std::string> reductions();
+std::vector<std::string> time_schemes();
+std::vector<std::string> linear_solvers();
 std::vector<std::string> exchange_schedules();  ///< the default first
 
 /// Parameters that the subgrade models bring along, each in the section "Subgrade/<model>".

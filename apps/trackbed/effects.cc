@@ -11,7 +11,7 @@ std::string text_of(const StructureCost& c) {
   if (c.unknowns == 0) return "one solve or product a step";  // not measured
   return shortest(std::round(c.unknowns)) + " unknowns, each step " +
          (c.solves ? "one solve, " : "no solve, ") + shortest(std::ceil(1e5 * c.seconds) / 100) +
-         " ms";
+         " ms" + c.reduction;
 }
 
 std::string tamping_cost(const Scene& s, const Plan&) {
@@ -42,6 +42,13 @@ const std::vector<EffectKind>& effect_kinds() {
        "a finite element step, contacts with its deforming surface",
        [](const Scene& s) { return s.subgrade.model != "rigid"; },
        [](const Scene&, const Plan& p) { return text_of(p.subgrade); }},
+      {"absorbing boundaries", "Subgrade/Absorbing", "none", "all",
+       "dashpots on the subgrade's boundaries: always a solve",
+       [](const Scene& s) { return s.subgrade.model != "rigid" && s.subgrade.absorbing != "none"; },
+       nullptr},
+      {"push of the sleeper", "Loading/Push", "none", "longitudinal",
+       "a stage of its own after the load cycles",
+       [](const Scene& s) { return s.loading.push != "none"; }, nullptr},
       {"periodic along track", "Container/Periodic along track", "false", "true",
        "images of grains at the seam", [](const Scene& s) { return s.container.periodic; },
        nullptr},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "apps/trackbed/choices.h"
+#include "apps/trackbed/sleeper_types.h"
 
 namespace trackbed::apps {
 namespace {
@@ -149,9 +150,16 @@ void add_packing(Section s) {
 }
 
 void add_sleeper(Section s) {
-  s.choice("Model", "elastic", {"rigid", "elastic", "auto"},
-           "six equations of a rigid body, or an FE body; auto: FE where a beam of this length "
-           "bends on a stiff bed");
+  s.choice(
+      "Type", "block", sleeper_types(),
+      "sets sizes, Density, Modulus, Seats and Elements that the scene does not give; block sets "
+      "nothing");
+  s.choice("Model", "elastic", {"rigid", "elastic", "beam", "auto"},
+           "six equations of a rigid body, an FE body, or a Timoshenko beam; auto: FE where a beam of "
+           "this length bends on a stiff bed");
+  s.choice("Reduction", "none", reductions(),
+           "of an elastic sleeper to modes: modal is cheapest, condensed keeps every static load");
+  s.integer("Modes", "20", 1, 1000, "lowest elastic modes of a reduced sleeper");
   s.number("Length", "0.26", "m", 1e-3, 20, "in x, across the track");
   s.number("Width", "0.28", "m", 1e-3, 5, "in y, along the track");
   s.number("Height", "0.2", "m", 1e-3, 2, "in z");
@@ -180,6 +188,13 @@ void add_subgrade(Section s) {
   s.number("Element size", "0.1", "m", 1e-4, 10, "largest edge of an element");
   s.integer("Order", "1", 1, 2, "polynomial degree of the elements");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on subgrade");
+  s.choice("Reduction", "none", reductions(),
+           "of finite elements to modes; condensed keeps every static load on the surface");
+  s.integer("Modes", "20", 1, 1000, "lowest elastic modes of a reduced subgrade");
+  s.choice(
+      "Absorbing", "none", {"none", "sides", "bottom", "all"},
+      "boundaries with dashpots and springs that let waves out, instead of rollers and a fixed "
+      "base");
 }
 
 void add_loading(Section s) {
@@ -188,8 +203,19 @@ void add_loading(Section s) {
   s.number("Frequency", "10", "Hz", 1e-6, 1e4, "of the load");
   s.integer("Cycles", "10", 0, 1e9, "load cycles (Shao 2017: 80)");
   s.number("Ramp time", "0.05", "s", 0, 1e4, "from no load to Least");
-  s.choice("Waveform", "sine", waveforms(),
-           "from Least to Largest and back: sine is (1 - cos)/2, triangle has straight flanks");
+  s.choice(
+      "Waveform", "sine", waveforms(),
+      "from Least to Largest and back: sine and haversine are (1 - cos)/2, triangle has straight "
+      "flanks; table takes it from a file instead");
+  s.text("Table", "", "-",
+         "CSV file with the columns time_s and load_N, one cycle, relative to this file");
+  s.choice(
+      "Push", "none", {"none", "lateral", "longitudinal"},
+      "after the cycles, under the least load: the sleeper's resistance along x or y (push.csv)");
+  s.number("Push speed", "0.01", "m/s", 1e-6, 10, "of the actuator");
+  s.number("Push distance", "0.005", "m", 1e-6, 1, "of the actuator");
+  s.number("Push stiffness", "1e8", "N/m", 1e3, 1e12,
+           "of the actuator between its drive and the sleeper");
 }
 
 void add_numerics(Section s) {
@@ -198,6 +224,12 @@ void add_numerics(Section s) {
   s.number("Time step", "0", "s", 0, 1, "fixed step of all stages; 0 = from the margins");
   s.number("Spectral radius", "0.9", "-", 0, 1,
            "of generalised-alpha at infinite frequency; 1 = Newmark's trapezoidal rule");
+  s.choice(
+      "Structure scheme", "automatic", time_schemes(),
+      "time integration of finite elements: automatic is explicit where mass is lumped and the "
+      "step allows, else generalised_alpha; reduced ones are exact in their modes");
+  s.choice("Linear solver", "automatic", linear_solvers(),
+           "of finite elements: automatic is direct up to 60000 unknowns, else cg_gamg");
   s.choice("Exchange", "predicted", exchange_schedules(),
            "of forces and motion between grains and structures: predicted, one force on both sides "
            "at each step; explicit, structures without a solve; several_steps; iterated; lagged, "

@@ -26,9 +26,10 @@ struct PlanStage {
 };
 
 struct StructureCost {
-  double unknowns = 0;  ///< 0 = rigid
-  double seconds = 0;   ///< a step
-  bool solves = false;  ///< else explicit
+  double unknowns = 0;    ///< 0 = rigid
+  double seconds = 0;     ///< a step
+  bool solves = false;    ///< else explicit
+  std::string reduction;  ///< what it leaves out, or iterations of its solver; else empty
 };
 
 struct Plan {

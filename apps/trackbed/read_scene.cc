@@ -9,6 +9,7 @@
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/scene_text.h"
+#include "apps/trackbed/sleeper_types.h"
 
 namespace trackbed::apps {
 namespace {
@@ -99,7 +100,10 @@ PackingScene packing(const Values& v) {
 
 SleeperScene sleeper(const Values& v) {
   SleeperScene s{};
+  s.type = v.text("Sleeper/Type");
   s.model = v.text("Sleeper/Model");
+  s.reduction = v.text("Sleeper/Reduction");
+  s.modes = static_cast<int>(v.integer("Sleeper/Modes"));
   s.length = v.number("Sleeper/Length");
   s.width = v.number("Sleeper/Width");
   s.height = v.number("Sleeper/Height");
@@ -127,6 +131,9 @@ SubgradeScene subgrade(const Values& v) {
   s.element_size = v.number("Subgrade/Element size");
   s.order = static_cast<int>(v.integer("Subgrade/Order"));
   s.friction = v.number("Subgrade/Friction");
+  s.reduction = v.text("Subgrade/Reduction");
+  s.modes = static_cast<int>(v.integer("Subgrade/Modes"));
+  s.absorbing = v.text("Subgrade/Absorbing");
   const std::string section = "Subgrade/" + s.model;
   for (const auto& p : subgrade_parameters())
     if (p.section == section) s.values[p.key] = v.text(parameter_path(p));
@@ -141,6 +148,17 @@ LoadingScene loading(const Values& v) {
   l.cycles = static_cast<int>(v.integer("Loading/Cycles"));
   l.ramp_time = v.number("Loading/Ramp time");
   l.waveform = v.text("Loading/Waveform");
+  l.table = v.text("Loading/Table");
+  if (l.waveform == "table" && !l.table.empty()) {
+    l.history = read_load_table(l.table);
+    l.frequency = 1 / l.history.period();
+    l.least = l.history.load.front();
+    l.largest = l.history.at(l.history.peak() * l.history.period());
+  }
+  l.push = v.text("Loading/Push");
+  l.push_speed = v.number("Loading/Push speed");
+  l.push_distance = v.number("Loading/Push distance");
+  l.push_stiffness = v.number("Loading/Push stiffness");
   return l;
 }
 
@@ -153,6 +171,8 @@ NumericsScene numerics(const Values& v) {
   n.exchange = v.text("Numerics/Exchange");
   n.grain_steps = static_cast<int>(v.integer("Numerics/Grain steps per exchange"));
   n.exchange_tolerance = v.number("Numerics/Exchange tolerance");
+  n.scheme = v.text("Numerics/Structure scheme");
+  n.solver = v.text("Numerics/Linear solver");
   n.closure = v.number("Numerics/Closure");
   n.mirror_noise = v.number("Numerics/Mirror noise");
   return n;
@@ -179,12 +199,13 @@ OutputScene output(const Values& v) {
   return o;
 }
 
-/// Meshes and stones are given relative to the scene's file; from here on they are absolute, so that
-/// scene.resolved.prm can be run from anywhere.
+/// Meshes, stones and tables are given relative to the scene's file; from here on they are absolute,
+/// so that scene.resolved.prm can be run from anywhere.
 void make_absolute(std::vector<SceneEntry>& entries) {
   namespace fs = std::filesystem;
   for (auto& entry : entries)
-    if ((entry.key == "Mesh" || entry.key == "Stones") && !entry.value.empty() && fs::path(entry.value).is_relative()) {
+    if ((entry.key == "Mesh" || entry.key == "Stones" || entry.key == "Table") &&
+        !entry.value.empty() && fs::path(entry.value).is_relative()) {
       const auto folder = entry.line > 0 ? fs::path(entry.file).parent_path() : fs::path();
       entry.value = fs::absolute(folder / entry.value).lexically_normal().string();
     }
@@ -196,6 +217,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   auto entries = read_scene_text(file);
   for (const auto& text : overrides) entries.push_back(parse_override(text));
   make_absolute(entries);
+  apply_sleeper_type(entries);
   const Values values(scene_parameters(), entries);
   Scene scene{};
   scene.title = values.text("Title");

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/trackbed/load_table.h"
+
 namespace trackbed::apps {
 
 /// x across the track (along the sleeper), y along the track, z up; the subgrade's top is z = 0
@@ -76,7 +78,10 @@ struct PackingScene {
 };
 
 struct SleeperScene {
-  std::string model;             ///< "rigid" | "elastic" (`auto` has been decided)
+  std::string type;              ///< a name of sleeper_types.h
+  std::string model;             ///< "rigid" | "elastic" | "beam" (`auto` has been decided)
+  std::string reduction;         ///< of an elastic one: "none" | "condensed" | "modal"
+  int modes;                     ///< of a reduced one
   double length, width, height;  ///< in x, y, z [m]
   double density, modulus, poisson, friction;
   std::vector<double> elements;  ///< in x, y, z
@@ -93,6 +98,9 @@ struct SubgradeScene {
   double element_size;  ///< largest edge of an element [m]
   int order;            ///< polynomial degree of the elements
   double friction;
+  std::string reduction;  ///< "none" | "condensed" | "modal"
+  int modes;              ///< of a reduced one
+  std::string absorbing;  ///< "none" | "sides" | "bottom" | "all"
   std::map<std::string, std::string> values;  ///< of the model's own section: key to text
 };
 
@@ -101,7 +109,11 @@ struct LoadingScene {
   double frequency;       ///< [Hz]
   int cycles;
   double ramp_time;      ///< from zero to the least load [s]
-  std::string waveform;  ///< "sine" | "triangle"
+  std::string waveform;  ///< "sine" | "haversine" | "triangle" | "table"
+  std::string table;     ///< file of a table
+  LoadTable history;     ///< its rows
+  std::string push;      ///< after the cycles: "none" | "lateral" (x) | "longitudinal" (y)
+  double push_speed, push_distance, push_stiffness;  ///< [m/s], [m], of the actuator [N/m]
 };
 
 struct NumericsScene {
@@ -112,6 +124,8 @@ struct NumericsScene {
   std::string exchange;       ///< schedule of coupling/exchange.h
   int grain_steps;            ///< per exchange, with several_steps
   double exchange_tolerance;  ///< of iterated
+  std::string scheme;         ///< of the structures' time integration
+  std::string solver;         ///< of their linear systems
   double closure;             ///< share of the work done beyond which the run fails
   double mirror_noise;        ///< relative size of a last-bit change of the start (noise floor)
 };

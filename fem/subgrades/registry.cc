@@ -99,7 +99,9 @@ std::unique_ptr<Structure> make_body(const SubgradeSite& site, ElasticBodyParame
   };
   if (site.absorbing_bottom) absorb("bottom", depth);
   if (site.absorbing_sides && !site.periodic_x)
-    for (const char* side : {"x_min", "x_max"}) absorb(side, (site.x_high - site.x_low) / 2);
+    for (const char* side : {"x_min", "x_max"})
+      if (!site.mirror_x || std::string(side) == "x_max")
+        absorb(side, (site.x_high - site.x_low) / (site.mirror_x ? 1 : 2));
   if (site.absorbing_sides && !site.periodic_y)
     for (const char* side : {"y_min", "y_max"}) absorb(side, (site.y_high - site.y_low) / 2);
   if (site.reduction == Reduction::none) return std::make_unique<ElasticBody>(std::move(p));
@@ -110,7 +112,8 @@ PointBedParameters points_under(const SubgradeSite& site) {
   if (site.reduction != Reduction::none)
     throw InputError("Subgrade/Reduction: points of a bed have no modes to share; none is allowed");
   if (site.absorbing_sides || site.absorbing_bottom)
-    throw InputError("Subgrade/Absorbing: a bed of points has no sides and no bottom; none is allowed");
+    throw InputError(
+        "Subgrade/Absorbing: a bed of points has no sides and no bottom; none is allowed");
   PointBedParameters p;
   p.x_low = site.x_low, p.x_high = site.x_high;
   p.y_low = site.y_low, p.y_high = site.y_high;

@@ -22,12 +22,13 @@ struct SubgradeSite {
   double element_size = 0.1;                            ///< wanted edge length [m]
   int order = 1;
   bool periodic_x = false, periodic_y = false;  ///< else rollers at the sides
+  bool mirror_x = false;                        ///< x_low is a plane of symmetry: always rollers
   bool newmark = false;
   double rho_inf = 0.9;
   TimeScheme scheme = TimeScheme::automatic;
   SolverKind solver = SolverKind::automatic;
   Reduction reduction = Reduction::none;
-  int modes = 20;  ///< of a reduced body
+  int modes = 20;                                          ///< of a reduced body
   bool absorbing_sides = false, absorbing_bottom = false;  ///< instead of rollers and a fixed base
 };
 

@@ -184,10 +184,33 @@ void apply_load(Run& run, double newton) {
   coupling::World& w = run.world;
   if (run.actors.sleeper_surface >= 0) {
     fem::Structure& s = *w.surfaces[run.actors.sleeper_surface].structure;
-    for (int k = 0; k < s.loads(); ++k) s.set_load(k, run.layout.share * newton / s.loads());
+    const int seats = seat_loads(run.scene);
+    for (int k = 0; k < seats; ++k) s.set_load(k, run.layout.share * newton / seats);
   } else if (run.actors.plate || run.actors.rigid_sleeper) {
     w.bodies.applied_force[moving_body(run)] = Vec3(0, 0, -run.layout.share * newton);
   }
+}
+
+double push_displacement(const Run& run) {
+  const int axis = run.scene.loading.push == "lateral" ? 0 : 1;
+  const coupling::World& w = run.world;
+  if (run.actors.sleeper_surface >= 0)
+    return w.surfaces[run.actors.sleeper_surface].structure->load_displacement(
+        seat_loads(run.scene))[axis];
+  return w.bodies.x[moving_body(run)][axis];
+}
+
+void apply_push(Run& run, double target) {
+  const int axis = run.scene.loading.push == "lateral" ? 0 : 1;
+  StageState& s = run.stage;
+  s.push = push_displacement(run) - s.push_start;
+  s.push_force = run.scene.loading.push_stiffness * (target - s.push);
+  coupling::World& w = run.world;
+  const double force = run.layout.share * s.push_force;
+  if (run.actors.sleeper_surface >= 0)
+    w.surfaces[run.actors.sleeper_surface].structure->set_load(seat_loads(run.scene), force);
+  else
+    w.bodies.applied_force[moving_body(run)][axis] = force;
 }
 
 }  // namespace trackbed::apps

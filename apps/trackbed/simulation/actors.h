@@ -36,6 +36,13 @@ inline int moving_body(const Run& run) { return run.world.bodies.grains + run.ac
 /// The load on plate or sleeper from now on [N].
 void apply_load(Run&, double newton);
 
+/// The actuator of a push stands at `target` from its start [m]: the force of its spring on the
+/// sleeper from now on.
+void apply_push(Run&, double target);
+
+/// The sleeper's displacement along the push against where it was put in [m].
+double push_displacement(const Run&);
+
 /// Highest point of the grains within a plan-view rectangle [m].
 double highest_grain(const Run&, double low_x, double high_x, double low_y, double high_y);
 

@@ -9,8 +9,10 @@
 namespace trackbed::apps {
 namespace {
 
-const std::vector<std::string> kHistory{"time_s",    "stage",    "load_N",      "u_m",
-                                        "kinetic_J", "contacts", "coordination"};
+const std::vector<std::string> kHistory{
+    "time_s",      "stage",    "load_N",       "u_m",
+    "kinetic_J",   "contacts", "coordination", "push_displacement_m",
+    "push_force_N"};
 const std::vector<std::string> kEnergy{"time_s",
                                        "kinetic_J",
                                        "gravity_J",
@@ -66,7 +68,8 @@ void Recorder::sample(Run& run, const Stage& stage) {
   const CsvCell u = sleeper ? CsvCell(sleeper_displacement(run) - run.stage.u0) : CsvCell();
   history_.row({run.world.time, stage.name, run.stage.load, u,
                 dem::kinetic_energy(run.world.bodies), coupling::count_contacts(run.world),
-                coupling::coordination(run.world)});
+                coupling::coordination(run.world), stage.push ? CsvCell(run.stage.push) : CsvCell(),
+                stage.push ? CsvCell(run.stage.push_force) : CsvCell()});
   energy(run, stage);
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/effects.h"
+#include "apps/trackbed/files.h"
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/measures.h"
+#include "fem/modal_structure.h"
 
 namespace trackbed::apps {
 namespace {
@@ -79,6 +82,21 @@ void write_timing(const Run& run, const std::string& file, double wall) {
   csv.flush();
 }
 
+// What the reduction of a structure leaves out.
+void report_reduction(const coupling::Surface& surface, CsvWriter& csv) {
+  const auto* body = dynamic_cast<const fem::ModalStructure*>(surface.structure.get());
+  if (!body || !body->model().report) return;
+  const fem::ReductionReport& r = *body->model().report;
+  const std::string of = " of the reduced " + surface.patch.name;
+  csv.row({"full unknowns" + of, r.unknowns, "-", "of the body that was reduced"});
+  csv.row({"frequency error" + of, r.largest_frequency_error, "-",
+           "largest of its first elastic frequencies against the full body's"});
+  csv.row({"pressure error" + of, r.pressure_error, "-",
+           "static deflection under even pressure that it lacks as a share of the full body's"});
+  csv.row({"node error" + of, r.node_error, "-",
+           "the same under a force on one node in the middle: the local dent"});
+}
+
 void write_summary(const Run& run, const std::string& file, double wall) {
   const coupling::World& w = run.world;
   const StageState& s = run.stage;
@@ -104,11 +122,38 @@ void write_summary(const Run& run, const std::string& file, double wall) {
   for (const coupling::Surface& surface : w.surfaces)
     csv.row({"unknowns of the " + surface.patch.name, surface.structure->unknowns(), "-",
              "finite element degrees of freedom"});
+  for (const coupling::Surface& surface : w.surfaces) report_reduction(surface, csv);
   row("steps", w.times.steps, "-", "time steps done");
   row("time step", w.times.steps ? CsvCell(w.time / static_cast<double>(w.step)) : CsvCell(), "s",
       "mean over the run");
   row("wall time", wall, "s", "of this run");
   row("threads", run.threads, "-", "used for the grains");
+  csv.flush();
+}
+
+// push.csv: the lines of history.csv in which the sleeper was pushed.
+void write_push(const std::string& history, const std::string& file) {
+  std::istringstream lines(read_text(history));
+  CsvWriter csv(file, {"time_s", "displacement_m", "force_N", "load_N"});
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) out.push_back(cell);
+    return out;
+  };
+  std::string line;
+  std::getline(lines, line);
+  const auto names = cells(line);
+  const auto column = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) - names.begin();
+  };
+  const auto time = column("time_s"), stage = column("stage"), load = column("load_N"),
+             u = column("push_displacement_m"), f = column("push_force_N");
+  while (std::getline(lines, line)) {
+    const auto row = cells(line);
+    if (row.size() == names.size() && row[stage] == "push")
+      csv.row({row[time], row[u], row[f], row[load]});
+  }
   csv.flush();
 }
 
@@ -122,6 +167,7 @@ void write_results(const Run& run, const std::string& folder, double wall) {
   write_timing(run, folder + "/timing.csv", wall);
   write_summary(run, folder + "/summary.csv", wall);
   write_effects(run.scene, folder + "/effects.csv");
+  if (run.scene.loading.push != "none") write_push(folder + "/history.csv", folder + "/push.csv");
   if (run.stage.pressure_samples > 0) write_pressure(run, folder + "/pressure.csv");
 }
 

@@ -43,6 +43,8 @@ void choose_step(Run& run, const Stage& stage) {
     throw InputError(text);
   }
   dt = std::min(dt, coupling::schedule_limit(run.world));
+  for (const coupling::Surface& s : run.world.surfaces)
+    dt = std::min(dt, 0.99 * s.structure->largest_step() / per_exchange);
   if (n.time_step > 0) {
     if (n.time_step > std::min(limit.dt, now.dt)) {
       char text[200];
@@ -179,7 +181,7 @@ bool record_cycle(Run& run, const Stage& stage, Recorder& recorder, const std::s
   StageState& s = run.stage;
   const int phase = s.steps % s.steps_per_cycle;
   const bool tamping = run.actors.plate;
-  if (!tamping && phase == s.steps_per_cycle / 2) {
+  if (!tamping && phase == static_cast<int>(stage.peak * s.steps_per_cycle + 0.5)) {
     s.u_max = sleeper_displacement(run) - s.u0;
     s.load_max = s.load;
     keep_pressure(run);
@@ -270,6 +272,7 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     progress.begin(stage.name, run.world.time, s.start + stage.longest);
     const coupling::Drive drive = [&](coupling::World&, double time) {
       apply_load(run, stage.load(run, time - s.start));
+      if (stage.push) apply_push(run, stage.push(time - s.start));
     };
     const int taken = coupling::steps_per_exchange(run.world);
     bool over = false;

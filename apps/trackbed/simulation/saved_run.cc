@@ -8,7 +8,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr int kFormat = 1;  // raised when the arrays change
+constexpr int kFormat = 2;  // raised when the arrays change
 
 template <class A>
 void visit(A& a, const std::string& name, bool& flag) {
@@ -36,6 +36,8 @@ void visit(A& a, StageState& s) {
   a("stage/dt", s.dt), a("stage/start", s.start), a("stage/load", s.load), a("stage/u0", s.u0);
   a("stage/u_min", s.u_min), a("stage/load_min", s.load_min);
   a("stage/u_max", s.u_max), a("stage/load_max", s.load_max);
+  a("stage/push_start", s.push_start), a("stage/push", s.push);
+  a("stage/push_force", s.push_force);
   a("stage/largest_overlap", s.largest_overlap);
   a("stage/largest_step_share", s.largest_step_share);
   a("stage/work_in", s.work_in), a("stage/last_work", s.last_work);

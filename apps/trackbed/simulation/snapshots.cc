@@ -173,10 +173,9 @@ void write_xdmf(const std::string& folder, const SnapshotLog& log) {
 
 void write_structures(const Run& run, const std::string& folder, const SnapshotLog& log) {
   for (const coupling::Surface& s : run.world.surfaces) {
-    const auto* body = dynamic_cast<const fem::ElasticBody*>(s.structure.get());
-    if (!body) continue;
+    if (!s.structure->has_fields()) continue;
     const std::string stem = "structure_" + s.patch.name;
-    body->write_vtu(folder + "/" + numbered((stem + "_").c_str(), log.count) + ".vtu");
+    s.structure->write_vtu(folder + "/" + numbered((stem + "_").c_str(), log.count) + ".vtu");
     std::vector<fem::PvdRecord> records;
     for (int k = 0; k <= log.count; ++k) {
       const std::string vtu = numbered((stem + "_").c_str(), k) + ".vtu";

@@ -33,6 +33,8 @@ struct StageState {
   double load = 0;   ///< on plate or sleeper now [N]
   double u0 = 0;     ///< sleeper displacement that counts as zero [m]
   double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
+  double push_start = 0, push = 0;  ///< sleeper along the push: at its start, and since then [m]
+  double push_force = 0;            ///< of the actuator [N]
   double largest_overlap = 0;       ///< depth over grain size, so far in the run
   double largest_step_share = 0;    ///< time step over the measured limit, so far in the run
   double work_in = 0;               ///< sum of the rises of the ledger's work [J]
@@ -63,17 +65,19 @@ struct Stage {
   double friction = 0;  ///< grain on grain
   double longest = 0;   ///< [s]
   double period = 0;    ///< of the load [s]; 0 = no cycles
+  double peak = 0.5;    ///< when in a cycle the load is largest, as a share of the period
   bool until_quiet = false;
   bool ledger = false;                             ///< opens the energy ledger at its start
   std::function<void(Run&)> enter;                 ///< changes bodies and surfaces
   std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
-  std::function<bool(Run&)> after_cycle;           ///< true: the stage is over
+  std::function<double(double)> push;     ///< the actuator's place [m] at that time; empty: no push
+  std::function<bool(Run&)> after_cycle;  ///< true: the stage is over
 };
 
 /// Deposit, tamping, plate off, sleeper and ballast beside it, hardening to the loading modulus.
 std::vector<Stage> packing_stages(const Scene&);
 
-/// Seating under the least load, then the load cycles.
+/// Seating under the least load, then the load cycles, then the push if there is one.
 std::vector<Stage> loading_stages(const Scene&);
 
 /// What one step of the stage needs.

@@ -4,6 +4,7 @@
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/stage.h"
+#include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/waveform.h"
 
 namespace trackbed::apps {
@@ -102,7 +103,21 @@ std::vector<Stage> loading_stages(const Scene& s) {
     const LoadingScene& l = run.scene.loading;
     return waveform_load(l.waveform, t, 1 / l.frequency, l.least, l.largest);
   };
-  return {seating, loading};
+  if (s.loading.waveform == "table") {
+    loading.peak = s.loading.history.peak();
+    loading.load = [](const Run& run, double t) { return run.scene.loading.history.at(t); };
+  }
+  if (s.loading.push == "none") return {seating, loading};
+
+  Stage push = seating;
+  push.name = "push";
+  push.damping = s.contact.damping;
+  push.longest = s.loading.push_distance / s.loading.push_speed;
+  push.ledger = false;
+  push.enter = [](Run& run) { run.stage.push_start = push_displacement(run); };
+  push.load = [](const Run& run, double) { return run.scene.loading.least; };
+  push.push = [speed = s.loading.push_speed](double t) { return speed * t; };
+  return {seating, loading, push};
 }
 
 dem::StepContext step_context(const Run& run, const Stage& stage) {
@@ -121,8 +136,9 @@ double sleeper_displacement(const Run& run) {
   if (run.actors.sleeper_surface >= 0) {
     const fem::Structure& s = *w.surfaces[run.actors.sleeper_surface].structure;
     double sum = 0;
-    for (int k = 0; k < s.loads(); ++k) sum -= s.load_displacement(k)[2];
-    return sum / s.loads();
+    const int seats = seat_loads(run.scene);
+    for (int k = 0; k < seats; ++k) sum -= s.load_displacement(k)[2];
+    return sum / seats;
   }
   return run.actors.sleeper_start - w.bodies.x[moving_body(run)].z();
 }

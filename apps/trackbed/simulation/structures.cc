@@ -1,5 +1,7 @@
 #include "apps/trackbed/simulation/structures.h"
 
+#include "fem/beam.h"
+#include "fem/reduction.h"
 #include "fem/subgrades/registry.h"
 
 namespace trackbed::apps {
@@ -8,6 +10,33 @@ namespace {
 void set_time_integration(const Scene& s, fem::ElasticBodyParameters& p) {
   p.rho_inf = s.numerics.spectral_radius;
   p.newmark = s.numerics.spectral_radius == 1;
+  p.scheme = fem::time_scheme_of(s.numerics.scheme);
+  p.solver = fem::solver_of(s.numerics.solver);
+}
+
+bool is_simulated(const Scene& s, double seat) { return !s.container.half || seat >= 0; }
+
+std::unique_ptr<fem::Structure> make_beam_sleeper(const Scene& scene, const Layout& l,
+                                                  double base) {
+  const SleeperScene& s = scene.sleeper;
+  fem::BeamParameters p;
+  p.low_x = l.sleeper_low_x, p.high_x = l.sleeper_high_x;
+  p.width = s.width, p.height = s.height, p.base = base;
+  p.elements = static_cast<int>(s.elements[0] * l.share + 0.5);
+  p.cells_y = static_cast<int>(s.elements[1]), p.cells_z = static_cast<int>(s.elements[2]);
+  p.young = s.modulus, p.poisson = s.poisson, p.density = s.density;
+  p.half = scene.container.half;
+  for (const double x : s.seats) {
+    if (!is_simulated(scene, x)) continue;
+    double length = s.seat_length, centre = x;
+    if (p.half && x < 0.5 * length) length = 0.5 * length + x, centre = 0.5 * length;
+    p.loads.push_back({"seat", centre, length, {0, 0, -1}});
+  }
+  if (scene.loading.push == "lateral") p.loads.push_back({"push", p.high_x, 0, {1, 0, 0}});
+  if (scene.loading.push == "longitudinal")
+    p.loads.push_back({"push", 0.5 * (p.low_x + p.high_x), p.high_x - p.low_x, {0, 1, 0}});
+  p.gravity = {0, 0, -9.81};
+  return fem::make_beam(p);
 }
 
 }  // namespace
@@ -19,8 +48,15 @@ std::vector<std::string> sleeper_contact(const Scene& s) {
   return faces;
 }
 
-std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene& scene, const Layout& l,
-                                                       double base) {
+int seat_loads(const Scene& scene) {
+  int count = 0;
+  for (const double x : scene.sleeper.seats) count += is_simulated(scene, x);
+  return count;
+}
+
+std::unique_ptr<fem::Structure> make_elastic_sleeper(const Scene& scene, const Layout& l,
+                                                     double base) {
+  if (scene.sleeper.model == "beam") return make_beam_sleeper(scene, l, base);
   const SleeperScene& s = scene.sleeper;
   fem::ElasticBodyParameters p;
   p.name = "Sleeper";
@@ -46,7 +82,7 @@ std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene& scene, const
   p.order = s.order;
   if (scene.container.half) p.supports["x_min"] = fem::Support::roller;
   for (const double x : s.seats) {
-    if (scene.container.half && x < 0) continue;
+    if (!is_simulated(scene, x)) continue;
     fem::Load seat;
     seat.name = "seat";
     seat.boundary = "top";
@@ -59,11 +95,21 @@ std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene& scene, const
     }
     p.loads.push_back(seat);
   }
+  if (scene.loading.push != "none") {
+    fem::Load push;
+    push.name = "push";
+    push.boundary = scene.loading.push == "lateral" ? "x_max" : "y_min";
+    push.direction = {scene.loading.push == "lateral" ? 1. : 0.,
+                      scene.loading.push == "lateral" ? 0. : 1., 0};
+    p.loads.push_back(push);
+  }
   p.contact = sleeper_contact(scene);
   p.gravity = {0, 0, -9.81};
   p.start_in_equilibrium = false;  // it lies on the grains
   set_time_integration(scene, p);
   if (scene.numerics.exchange == "explicit") p.mass = fem::Mass::lumped;
+  if (s.reduction != "none")
+    return fem::reduced_body(std::move(p), fem::reduction_of(s.reduction), s.modes);
   return std::make_unique<fem::ElasticBody>(std::move(p));
 }
 
@@ -74,9 +120,16 @@ std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene& scene, cons
   site.top = l.low.z();
   site.element_size = scene.subgrade.element_size;
   site.order = scene.subgrade.order;
+  site.mirror_x = scene.container.half;
   site.periodic_y = scene.container.periodic;
   site.rho_inf = scene.numerics.spectral_radius;
   site.newmark = scene.numerics.spectral_radius == 1;
+  site.scheme = fem::time_scheme_of(scene.numerics.scheme);
+  site.solver = fem::solver_of(scene.numerics.solver);
+  site.reduction = fem::reduction_of(scene.subgrade.reduction);
+  site.modes = scene.subgrade.modes;
+  site.absorbing_sides = scene.subgrade.absorbing == "sides" || scene.subgrade.absorbing == "all";
+  site.absorbing_bottom = scene.subgrade.absorbing == "bottom" || scene.subgrade.absorbing == "all";
   return fem::make_subgrade(scene.subgrade.model, site, scene.subgrade.values);
 }
 

@@ -8,12 +8,16 @@
 
 namespace trackbed::apps {
 
-/// The elastic sleeper with its base at height `base` [m], free in space, its rail seats as loads.
-std::unique_ptr<fem::ElasticBody> make_elastic_sleeper(const Scene&, const Layout&, double base);
+/// The elastic sleeper (full, reduced or a beam) with its base at height `base` [m], free in space.
+/// Its loads: the rail seats, then the push if the scene has one.
+std::unique_ptr<fem::Structure> make_elastic_sleeper(const Scene&, const Layout&, double base);
 
 /// The subgrade below z = 0 by the model that the scene names, rollers at its sides (a seam where
 /// the scene is periodic). Not for "rigid".
 std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene&, const Layout&);
+
+/// How many of the elastic sleeper's loads are rail seats.
+int seat_loads(const Scene&);
 
 /// Boundaries of the sleeper that grains touch.
 std::vector<std::string> sleeper_contact(const Scene&);

@@ -1,0 +1,62 @@
+#include "apps/trackbed/sleeper_types.h"
+
+#include <algorithm>
+
+#include "apps/trackbed/csv.h"
+
+namespace trackbed::apps {
+namespace {
+
+// A block with the base and the height at the rail seats of the real sleeper, and a density that
+// gives its mass; the real one's sides lean inwards and its middle is lower.
+//
+// Lengths and masses are those commonly quoted for the types; none was checked against a drawing.
+//   chinese_II   YII-F:  2.5 m, 251 kg, base 0.28 m (ends), 0.205 m at the seats
+//   chinese_III  IIIa:   2.6 m, 370 kg, base 0.32 m (ends), 0.23 m at the seats
+//   B70          B70 W-60: 2.6 m, 280 kg without fastenings, base 0.30 m, 0.21 m at the seats
+//   (DBS 918 143 names the type; size as meshes/sleeper_b70.geo)
+// Modulus: C60 of GB 50010, 36 GPa; B70's concrete is C50/60, 37 GPa (EN 1992-1-1, Table 3.1).
+// Seats: 1.435 m gauge and half a rail head on each side, 1.507 m from rail to rail.
+struct Type {
+  const char* name;
+  double length, width, height, mass, modulus;
+};
+
+constexpr Type kTypes[] = {{"chinese_II", 2.5, 0.28, 0.205, 251, 3.6e10},
+                           {"chinese_III", 2.6, 0.32, 0.23, 370, 3.6e10},
+                           {"B70", 2.6, 0.30, 0.21, 280, 3.7e10}};
+
+}  // namespace
+
+std::vector<std::string> sleeper_types() {
+  std::vector<std::string> names{"block"};
+  for (const Type& t : kTypes) names.push_back(t.name);
+  return names;
+}
+
+void apply_sleeper_type(std::vector<SceneEntry>& entries) {
+  const SceneEntry* chosen = nullptr;
+  for (const SceneEntry& e : entries)
+    if (e.path() == "Sleeper/Type") chosen = &e;
+  if (!chosen) return;
+  const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                 [&](const Type& t) { return chosen->value == t.name; });
+  if (type == std::end(kTypes)) return;  // block, or refused with the names there are
+  const SceneEntry place = *chosen;
+  const auto set = [&](const char* key, const std::string& value) {
+    const bool given = std::any_of(entries.begin(), entries.end(), [&](const SceneEntry& e) {
+      return e.section == "Sleeper" && e.key == key;
+    });
+    if (!given) entries.push_back({"Sleeper", key, value, place.file, place.line});
+  };
+  set("Length", shortest(type->length));
+  set("Width", shortest(type->width));
+  set("Height", shortest(type->height));
+  set("Density", shortest(type->mass / (type->length * type->width * type->height)));
+  set("Modulus", shortest(type->modulus));
+  set("Poisson", "0.2");
+  set("Seats", "-0.7535, 0.7535");
+  set("Elements", "26, 3, 2");
+}
+
+}  // namespace trackbed::apps
