@@ -214,7 +214,7 @@ void add_loading(Section s) {
       "after the cycles, under the least load: the sleeper's resistance along x or y (push.csv)");
   s.number("Push speed", "0.01", "m/s", 1e-6, 10, "of the actuator");
   s.number("Push distance", "0.005", "m", 1e-6, 1, "of the actuator");
-  s.number("Push stiffness", "1e8", "N/m", 1e3, 1e12,
+  s.number("Push stiffness", "1e7", "N/m", 1e3, 1e12,
            "of the actuator between its drive and the sleeper");
 }
 

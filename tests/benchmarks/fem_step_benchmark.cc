@@ -3,7 +3,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "fem/elastic_body.h"
+#include "fem/beam.h"
+#include "fem/reduction.h"
 
 using namespace trackbed::fem;
 using Clock = std::chrono::steady_clock;
@@ -42,9 +43,15 @@ ElasticBodyParameters sleeper(int nx, int ny, int nz, int order) {
   return p;
 }
 
-void run(const char* name, const ElasticBodyParameters& p) {
+std::unique_ptr<Structure> build(const ElasticBodyParameters& p, Reduction reduction) {
+  if (reduction == Reduction::none) return std::make_unique<ElasticBody>(p);
+  return reduced_body(p, reduction, 20);
+}
+
+void run(const char* name, const ElasticBodyParameters& p, Reduction reduction = Reduction::none) {
   auto start = Clock::now();
-  ElasticBody body(p);
+  const auto built = build(p, reduction);
+  Structure& body = *built;
   const double build = seconds_since(start);
   start = Clock::now();
   body.set_step(1e-5);
@@ -70,6 +77,8 @@ int main() {
               "step ms");
   run("sleeper 26x3x2 Q1", sleeper(26, 3, 2, 1));
   run("sleeper 26x3x2 Q2", sleeper(26, 3, 2, 2));
+  run("  modal", sleeper(26, 3, 2, 2), Reduction::modal);
+  run("  condensed", sleeper(26, 2, 2, 1), Reduction::condensed);
   for (const bool lumped : {true, false}) {
     const auto under = [&](int nx, int ny, int nz, int order) {
       auto p = subgrade(nx, ny, nz, order);
@@ -78,6 +87,7 @@ int main() {
     };
     std::printf("%s\n", lumped ? "lumped mass, explicit:" : "consistent mass, implicit:");
     run("subgrade 12x6x8 Q1", under(12, 6, 8, 1));
+    if (lumped) run("  condensed", under(12, 6, 8, 1), Reduction::condensed);
     run("subgrade 16x8x12 Q1", under(16, 8, 12, 1));
     run("subgrade 28x14x16 Q1", under(28, 14, 16, 1));
     run("subgrade 14x7x8 Q2", under(14, 7, 8, 2));

@@ -171,6 +171,60 @@ class Runs(SceneTest):
             self.assertAlmostEqual(float(one["u_max_m"]), float(other["u_max_m"]), delta=1e-6)
 
 
+class Structures(SceneTest):
+    def test_reduced_and_other_structures(self):
+        """On one packing: reduced bodies give the full ones' peak to 1 %, a beam and other schemes close to it."""
+        def peak(name, **change):
+            run = self.run_scene(name, change={**SHORT, **change})
+            self.assert_sound(run)
+            return float(rows(run / "cycles.csv")[0]["u_max_m"])
+        full = peak("full")
+        reduced = peak("reduced", **{"Sleeper/Reduction": "modal", "Subgrade/Reduction": "condensed"})
+        self.assertAlmostEqual(reduced, full, delta=0.01 * abs(full))
+        self.assertTrue(list((self.folder / "reduced").glob("structure_sleeper_*.vtu")))
+        report = self.summary(self.folder / "reduced")
+        self.assertLess(float(report["frequency error of the reduced sleeper"]), 1e-4)
+        self.assertLess(float(report["pressure error of the reduced subgrade"]), 1e-4)
+        beam = peak("beam", **{"Sleeper/Model": "beam"})
+        self.assertAlmostEqual(beam, full, delta=0.05 * abs(full))
+        zhai = peak("zhai", **{"Sleeper/Model": "beam", "Numerics/Structure scheme": "zhai"})
+        self.assertAlmostEqual(zhai, beam, delta=0.01 * abs(full))
+        absorbing = peak("absorbing", **{"Subgrade/Absorbing": "all"})
+        self.assertGreater(absorbing, 0)
+
+    def test_push(self):
+        push = {**SHORT, "Loading/Push": "longitudinal", "Loading/Push speed": "0.05",
+                "Loading/Push distance": "0.002"}
+        for model in ("rigid", "elastic"):
+            run = self.run_scene(model, change={**push, "Sleeper/Model": model})
+            table = rows(run / "push.csv")
+            self.assertGreater(len(table), 3)
+            last = {key: float(cell) for key, cell in table[-1].items()}
+            self.assertGreater(last["displacement_m"], 0.001)
+            self.assertLess(last["displacement_m"], 0.002)
+            forces = [float(row["force_N"]) for row in table[len(table) // 2:]]
+            self.assertGreater(sum(forces) / len(forces), 2)  # a block of 25 N slides
+            self.assertLess(sum(forces) / len(forces), 100)
+            self.assertAlmostEqual(last["load_N"], 20, delta=1e-9)
+
+    def test_load_table(self):
+        (self.folder / "load.csv").write_text("time_s,load_N\n0,20\n0.001,30\n0.003,100\n0.004,20\n")
+        run = self.run_scene("a", change={"Loading/Ramp time": "0.002", "Loading/Waveform": "table",
+                                          "Loading/Table": "load.csv"})
+        self.assert_sound(run)
+        cycles = rows(run / "cycles.csv")
+        self.assertEqual(len(cycles), 2)
+        for row in cycles:
+            self.assertAlmostEqual(float(row["load_max_N"]), 100, delta=2)
+            self.assertAlmostEqual(float(row["load_min_N"]), 20, delta=1e-6)
+
+    def test_sleeper_type(self):
+        (self.folder / "b70.prm").write_text("subsection Sleeper\n  set Type = B70\n  set Width = 0.27\nend\n"
+                                             "subsection Container\n  set Length = 3\nend\n")
+        text = self.trackbed("check", "b70.prm").stdout
+        self.assertIn("2.6 x 0.27 x 0.21 m", text)
+
+
 class Exchange(SceneTest):
     def test_exchange_schedules(self):
         """Every schedule but the lagged one ends where the default does, ledger closed."""

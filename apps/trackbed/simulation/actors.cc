@@ -203,9 +203,17 @@ double push_displacement(const Run& run) {
 void apply_push(Run& run, double target) {
   const int axis = run.scene.loading.push == "lateral" ? 0 : 1;
   StageState& s = run.stage;
-  s.push = push_displacement(run) - s.push_start;
-  s.push_force = run.scene.loading.push_stiffness * (target - s.push);
   coupling::World& w = run.world;
+  const double mass = run.actors.sleeper_surface >= 0
+                          ? w.surfaces[run.actors.sleeper_surface].structure->mass()
+                          : w.bodies.mass[moving_body(run)];
+  const LoadingScene& l = run.scene.loading;
+  // Half of critical: the jerk of the start dies away within some of the actuator's own periods.
+  const double dashpot = std::sqrt(l.push_stiffness * mass / run.layout.share);
+  const double before = s.push;
+  s.push = push_displacement(run) - s.push_start;
+  s.push_force = l.push_stiffness * (target - s.push) +
+                 dashpot * (l.push_speed - (s.push - before) / s.dt);
   const double force = run.layout.share * s.push_force;
   if (run.actors.sleeper_surface >= 0)
     w.surfaces[run.actors.sleeper_surface].structure->set_load(seat_loads(run.scene), force);

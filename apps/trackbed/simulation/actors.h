@@ -36,8 +36,8 @@ inline int moving_body(const Run& run) { return run.world.bodies.grains + run.ac
 /// The load on plate or sleeper from now on [N].
 void apply_load(Run&, double newton);
 
-/// The actuator of a push stands at `target` from its start [m]: the force of its spring on the
-/// sleeper from now on.
+/// The actuator of a push stands at `target` from its start [m]: the force of its spring and
+/// dashpot (half of critical) on the sleeper from now on.
 void apply_push(Run&, double target);
 
 /// The sleeper's displacement along the push against where it was put in [m].

@@ -114,7 +114,7 @@ std::vector<Stage> loading_stages(const Scene& s) {
   push.damping = s.contact.damping;
   push.longest = s.loading.push_distance / s.loading.push_speed;
   push.ledger = false;
-  push.enter = [](Run& run) { run.stage.push_start = push_displacement(run); };
+  push.enter = [](Run& run) { run.stage.push_start = push_displacement(run), run.stage.push = 0; };
   push.load = [](const Run& run, double) { return run.scene.loading.least; };
   push.push = [speed = s.loading.push_speed](double t) { return speed * t; };
   return {seating, loading, push};
