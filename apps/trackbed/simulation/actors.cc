@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/structures.h"
@@ -208,6 +209,16 @@ void apply_push(Run& run, double target) {
                           ? w.surfaces[run.actors.sleeper_surface].structure->mass()
                           : w.bodies.mass[moving_body(run)];
   const LoadingScene& l = run.scene.loading;
+  // Its force is found a step late; beyond, spring and dashpot would feed the structure's vibrations.
+  const double stiffest = std::pow(0.05 / s.dt, 2) * mass / run.layout.share;
+  if (l.push_stiffness > stiffest) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "Loading/Push stiffness = %.3g: too stiff for a sleeper of %.3g kg at steps of "
+                  "%.2g s; at most %.2g N/m",
+                  l.push_stiffness, mass, s.dt, stiffest);
+    throw InputError(text);
+  }
   // Half of critical: the jerk of the start dies away within some of the actuator's own periods.
   const double dashpot = std::sqrt(l.push_stiffness * mass / run.layout.share);
   const double before = s.push;
