@@ -101,10 +101,10 @@ void visit(A& archive, const std::string& at, Surface& s) {
   archive(at + "searched_at", s.contacts.searched_at);
   std::vector<double> e{s.start.kinetic,    s.start.strain,       s.start.gravity,
                         s.start.work_loads, s.start.work_surface, s.start.dissipated_damping,
-                        s.start.numerical,  s.start.at_start};
+                        s.start.numerical,  s.start.at_start,     s.start.dissipated_material};
   archive(at + "start", e);
-  if (e.size() != 8) throw InputError("checkpoint: '" + at + "start' has another length");
-  s.start = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7]};
+  if (e.size() != 9) throw InputError("checkpoint: '" + at + "start' has another length");
+  s.start = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8]};
   dem::for_each_array(s.contacts,
                       [&](const char* name, auto& v) { archive(at + "contacts/" + name, v); });
 }

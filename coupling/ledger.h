@@ -13,6 +13,7 @@ struct EnergyFlows {
   double friction = 0;             ///< dissipated
   double local_damping = 0;        ///< dissipated
   double structure_damping = 0;    ///< dissipated, Rayleigh and dashpots
+  double structure_plastic = 0;    ///< dissipated in materials with history
   double structure_numerical = 0;  ///< taken out by the structures' time integration
   double transfer_error = 0;  ///< work of the grains on the predicted surface less the work the
                               ///< structure received: energy lost (+) or made (-) by prediction
@@ -29,7 +30,7 @@ struct EnergyStores {
 /// What does not add up [J]; > 0: energy was created.
 inline double closure(const EnergyStores& start, const EnergyStores& now, const EnergyFlows& f) {
   return now.total() - start.total() - f.work - f.prescribed + f.friction + f.local_damping +
-         f.structure_damping + f.structure_numerical + f.transfer_error;
+         f.structure_damping + f.structure_plastic + f.structure_numerical + f.transfer_error;
 }
 
 }  // namespace trackbed::coupling

@@ -52,6 +52,14 @@ dealii::Vector<double> on_system(const dealii::DoFHandler<3>& system, const Disc
 void write_fields(const std::string& file, const ElasticBodyParameters& p, const Grid& grid,
                   const Discretisation& body, const std::vector<Vec>& displacement,
                   const std::vector<Vec>& velocity) {
+  write_fields(file, p, grid, body, displacement, velocity,
+               cell_stress(p, grid, body, displacement));
+}
+
+void write_fields(const std::string& file, const ElasticBodyParameters& p, const Grid& grid,
+                  const Discretisation& body, const std::vector<Vec>& displacement,
+                  const std::vector<Vec>& velocity,
+                  const std::vector<std::array<double, 6>>& stress) {
   const dealii::FESystem<3> three(grid.shape, 3);
   dealii::DoFHandler<3> system(grid.cells);
   system.distribute_dofs(three);
@@ -59,7 +67,6 @@ void write_fields(const std::string& file, const ElasticBodyParameters& p, const
 
   static const char* names[] = {"stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa",
                                 "stress_yz_Pa", "stress_xz_Pa", "stress_xy_Pa"};
-  const auto stress = cell_stress(p, grid, body, displacement);
   std::vector<dealii::Vector<float>> parts(6, dealii::Vector<float>(stress.size()));
   dealii::Vector<float> mises(stress.size()), material(stress.size());
   for (std::size_t c = 0; c < stress.size(); ++c) {

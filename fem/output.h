@@ -15,6 +15,12 @@ void write_fields(const std::string& file, const ElasticBodyParameters&, const G
                   const Discretisation&, const std::vector<Vec>& displacement,
                   const std::vector<Vec>& velocity);
 
+/// The same with given stresses xx, yy, zz, yz, xz, xy of the cells.
+void write_fields(const std::string& file, const ElasticBodyParameters&, const Grid&,
+                  const Discretisation&, const std::vector<Vec>& displacement,
+                  const std::vector<Vec>& velocity,
+                  const std::vector<std::array<double, 6>>& stress);
+
 /// Displacement at a point, by the cell it lies in. \throws InputError outside.
 Vec field_at(const ElasticBodyParameters&, const Grid&, const std::vector<Vec>& displacement,
              const Vec& point);

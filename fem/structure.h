@@ -37,7 +37,7 @@ struct SurfaceMesh {
 
 /// Energies [J] since the start. Works are sums of ½(F_n + F_{n+1})·(u_{n+1} − u_n).
 /// work_loads + work_surface + at_start = kinetic + strain + gravity + dissipated_damping +
-/// numerical, where `numerical` (what the time integration took out, or put in) is what remains:
+/// dissipated_material + numerical, where `numerical` (what the time integration took out, or put in) is what remains:
 /// zero to round-off for Newmark's average acceleration.
 struct StructureEnergy {
   double kinetic = 0, strain = 0, gravity = 0;
@@ -45,6 +45,7 @@ struct StructureEnergy {
   double dissipated_damping = 0;
   double numerical = 0;
   double at_start = 0;
+  double dissipated_material = 0;  ///< plastic work of a material with history
 };
 
 class Structure {

@@ -6,6 +6,7 @@ trackbed_test(fem_meshes unit trackbed_fem)
 target_compile_definitions(fem_meshes_test PRIVATE TRACKBED_MESHES="${PROJECT_SOURCE_DIR}/meshes")
 trackbed_test(fem_statics verification trackbed_fem)
 trackbed_test(fem_dynamics verification trackbed_fem)
+trackbed_test(fem_plasticity verification trackbed_fem)
 trackbed_test(fem_reduction verification trackbed_fem)
 trackbed_test(fem_beam verification trackbed_fem)
 trackbed_test(fem_schemes verification trackbed_fem)
@@ -14,3 +15,17 @@ trackbed_test(fem_convergence verification trackbed_fem trackbed_dealii)
 
 add_executable(fem_step_benchmark ${CMAKE_CURRENT_LIST_DIR}/benchmarks/fem_step_benchmark.cc)
 target_link_libraries(fem_step_benchmark PRIVATE trackbed_fem)
+
+# The model and the test of fem/subgrades/README.md, exactly as printed there.
+set(tutorial ${CMAKE_CURRENT_BINARY_DIR}/tutorial)
+set(page ${PROJECT_SOURCE_DIR}/fem/subgrades/README.md)
+add_custom_command(
+  OUTPUT ${tutorial}/undrained_clay.cc ${tutorial}/undrained_clay_test.cc
+  COMMAND ${CMAKE_COMMAND} -DPAGE=${page} -DMODEL=${tutorial}/undrained_clay.cc
+          -DTEST=${tutorial}/undrained_clay_test.cc -P ${CMAKE_CURRENT_SOURCE_DIR}/tutorial.cmake
+  DEPENDS ${page} ${CMAKE_CURRENT_SOURCE_DIR}/tutorial.cmake)
+add_executable(tutorial_test ${tutorial}/undrained_clay.cc ${tutorial}/undrained_clay_test.cc
+               ${CMAKE_CURRENT_SOURCE_DIR}/verification/fem_plasticity_test.cc)
+target_link_libraries(tutorial_test PRIVATE trackbed_fem GTest::gtest GTest::gtest_main)
+gtest_discover_tests(tutorial_test TEST_PREFIX "verification/tutorial/" TEST_FILTER
+                     "UndrainedClay*:StressModels*" PROPERTIES LABELS verification DISCOVERY_TIMEOUT 60)

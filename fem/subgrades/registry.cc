@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fem/nonlinear_body.h"
 #include "fem/text.h"
 
 namespace trackbed::fem {
@@ -39,8 +40,10 @@ RegisterSubgrade::RegisterSubgrade(SubgradeModel model) {
   models().emplace(name, std::move(model));
 }
 
-std::unique_ptr<Structure> make_subgrade(const std::string& name, const SubgradeSite& site,
-                                         Values values) {
+namespace {
+
+// The model of that name; values completed by its defaults and checked.
+const SubgradeModel& checked(const std::string& name, Values& values) {
   const auto found = models().find(name);
   if (found == models().end())
     throw InputError(
@@ -59,7 +62,36 @@ std::unique_ptr<Structure> make_subgrade(const std::string& name, const Subgrade
     values.emplace(p.key, p.fallback);
     check(name, p, values.at(p.key));
   }
-  return model.build(site, values);
+  return model;
+}
+
+std::unique_ptr<Structure> body_with_history(const SubgradeSite& site, const Values& values,
+                                             std::shared_ptr<const StressModel> stress) {
+  if (site.reduction != Reduction::none)
+    throw InputError("Subgrade/Reduction: a material with history has no modes; none is allowed");
+  if (site.absorbing_sides || site.absorbing_bottom)
+    throw InputError(
+        "Subgrade/Absorbing: boundaries absorb the waves of an elastic material only; none is "
+        "allowed");
+  ElasticBodyParameters p = box_under(site);
+  const double depth = number(values, "Depth");
+  p.mesh.layers = {{depth, cells_over(site, depth), 0}};
+  p.mesh.corner[2] -= depth;
+  return std::make_unique<NonlinearBody>(std::move(p), std::move(stress));
+}
+
+}  // namespace
+
+std::unique_ptr<Structure> make_subgrade(const std::string& name, const SubgradeSite& site,
+                                         Values values) {
+  const SubgradeModel& model = checked(name, values);
+  return model.stress ? body_with_history(site, values, model.stress(values))
+                      : model.build(site, values);
+}
+
+std::shared_ptr<const StressModel> stress_model(const std::string& name, Values values) {
+  const SubgradeModel& model = checked(name, values);
+  return model.stress ? model.stress(values) : nullptr;
 }
 
 double number(const Values& values, const std::string& key) { return std::stod(values.at(key)); }

@@ -10,6 +10,7 @@
 
 #include "base/parameter.h"
 #include "fem/elastic_body.h"
+#include "fem/materials/stress_model.h"
 #include "fem/point_bed.h"
 #include "fem/reduction.h"
 
@@ -40,6 +41,9 @@ struct SubgradeModel {
   std::string documentation;  ///< equation, symbols, source, when to use it
   std::vector<Parameter> parameters;
   std::function<std::unique_ptr<Structure>(const SubgradeSite&, const Values&)> build;
+  /// Instead of `build`, for a material with history: its stress model. The body is then a box of
+  /// the thickness that the key "Depth" says.
+  std::function<std::shared_ptr<const StressModel>(const Values&)> stress = {};
 };
 
 /// All models, by name.
@@ -48,6 +52,10 @@ const std::map<std::string, SubgradeModel>& subgrade_models();
 /// Builds by name; missing keys take their defaults. \throws InputError: unknown model (the names
 /// there are), unknown key, not a number, out of range.
 std::unique_ptr<Structure> make_subgrade(const std::string& model, const SubgradeSite&, Values);
+
+/// The stress model of a subgrade that has one, for tests of a material point; else null.
+/// \throws InputError as make_subgrade.
+std::shared_ptr<const StressModel> stress_model(const std::string& model, Values);
 
 /// One line at the end of a model's file: `const RegisterSubgrade here{{...}};`
 struct RegisterSubgrade {

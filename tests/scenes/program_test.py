@@ -321,6 +321,14 @@ class Commands(SceneTest):
         for word in ("Grains", "elastic sleeper", "Off", "time step", "steps", "memory", "nothing was run"):
             self.assertIn(word, text)
 
+    def test_parameters_name_every_subgrade_file(self):
+        text = self.trackbed("parameters", "--format", "markdown").stdout
+        files = [f.stem for f in (HERE.parents[1] / "fem" / "subgrades").glob("*.cc") if f.stem != "registry"]
+        self.assertGreaterEqual(len(files), 5)
+        for name in files:
+            self.assertRegex(text, rf"Subgrade/{name}\b|\b{name}\b", name)
+            self.assertIn(f"Subgrade/{name}", text)
+
     def test_compare(self):
         options = [f"--set={path}={value}" for path, value in SHORT.items()]
         self.trackbed("compare", "tiny.prm", "--output", "c", "--set=Packing/Folder=packings", *options)

@@ -24,7 +24,8 @@ const std::vector<std::string> kEnergy{"time_s",
                                        "dissipated_structure_damping_J",
                                        "dissipated_structure_integration_J",
                                        "transfer_error_J",
-                                       "closure_J"};
+                                       "closure_J",
+                                       "dissipated_structure_plastic_J"};
 const std::vector<std::string> kCycles{"cycle",
                                        "time_s",
                                        "load_min_N",
@@ -80,7 +81,7 @@ void Recorder::energy(Run& run, const Stage& stage) {
   const double open = coupling::closure(run.world.start, now, f);
   energy_.row({run.world.time, now.kinetic, now.gravity, now.contact, now.structure,
                f.work + f.prescribed, f.friction, f.local_damping, f.structure_damping,
-               f.structure_numerical, f.transfer_error, open});
+               f.structure_numerical, f.transfer_error, open, f.structure_plastic});
   run.stage.work_in += std::max(0.0, f.work - run.stage.last_work);
   run.stage.last_work = f.work;
   run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));

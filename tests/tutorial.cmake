@@ -1,0 +1,17 @@
+# Writes the C++ blocks of a page into files, the first to MODEL, the second to TEST:
+# cmake -DPAGE=... -DMODEL=... -DTEST=... -P tutorial.cmake
+file(READ "${PAGE}" page)
+string(REPLACE ";" "@semicolon@" page "${page}")
+foreach(target "${MODEL}" "${TEST}")
+  string(FIND "${page}" "```cpp\n" start)
+  if(start EQUAL -1)
+    message(FATAL_ERROR "${PAGE}: no C++ block left for ${target}")
+  endif()
+  math(EXPR start "${start} + 7")
+  string(SUBSTRING "${page}" ${start} -1 page)
+  string(FIND "${page}" "```" end)
+  string(SUBSTRING "${page}" 0 ${end} block)
+  string(SUBSTRING "${page}" ${end} -1 page)
+  string(REPLACE "@semicolon@" ";" block "${block}")
+  file(WRITE "${target}" "${block}")
+endforeach()
