@@ -29,3 +29,19 @@ add_executable(tutorial_test ${tutorial}/undrained_clay.cc ${tutorial}/undrained
 target_link_libraries(tutorial_test PRIVATE trackbed_fem GTest::gtest GTest::gtest_main)
 gtest_discover_tests(tutorial_test TEST_PREFIX "verification/tutorial/" TEST_FILTER
                      "UndrainedClay*:StressModels*" PROPERTIES LABELS verification DISCOVERY_TIMEOUT 60)
+
+# Bodies shared by ranks: the same tests on one, two and four.
+add_executable(fem_distributed_test ${CMAKE_CURRENT_SOURCE_DIR}/verification/fem_distributed_test.cc)
+target_link_libraries(fem_distributed_test PRIVATE trackbed_fem GTest::gtest)
+add_executable(distributed_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/distributed_benchmark.cc)
+target_link_libraries(distributed_benchmark PRIVATE trackbed_fem)
+find_program(MPIRUN mpirun REQUIRED)
+set(mpirun ${MPIRUN} --oversubscribe --bind-to none --mca mpi_yield_when_idle 1)
+foreach(ranks 1 2 4)
+  add_test(NAME verification/distributed_${ranks}
+           COMMAND ${mpirun} -n ${ranks} $<TARGET_FILE:fem_distributed_test>)
+  set_tests_properties(
+    verification/distributed_${ranks}
+    PROPERTIES LABELS verification ENVIRONMENT
+               "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1" TIMEOUT 200)
+endforeach()

@@ -10,6 +10,7 @@
 #include "apps/trackbed/commands.h"
 #include "base/error.h"
 #include "dem/grain/nearest_name.h"
+#include "fem/session.h"
 
 namespace {
 
@@ -37,6 +38,7 @@ void add_output(CLI::App& command, std::string& output, const char* fallback) {
 }
 
 int say(const std::string& message, int code) {
+  if (trackbed::fem::rank() > 0) return code;  // rank 0 says it
   std::fprintf(stderr, "trackbed: %s\n", message.c_str());
   return code;
 }
@@ -62,6 +64,12 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
 void wait_passively(char** argv) {
   if (::getenv("OMP_WAIT_POLICY") || ::setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
   ::execv("/proc/self/exe", argv);  // returns only if it cannot: then as it is
+}
+
+/// mpirun tells each rank how many there are; without it MPI starts with the first structure.
+void join_ranks() {
+  const char* ranks = ::getenv("OMPI_COMM_WORLD_SIZE");
+  if (ranks && std::atoi(ranks) > 1) trackbed::fem::start_session();
 }
 
 int run_program(int argc, char** argv) {
@@ -176,6 +184,8 @@ int run_program(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return say(usage_message(app, error, argc, argv), wrong_input);
   }
+  // Only a run has work for more than one rank.
+  if (trackbed::fem::rank() > 0 && !app.got_subcommand("run")) return 0;
   return chosen();
 }
 
@@ -183,6 +193,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   wait_passively(argv);
+  join_ranks();
   try {
     return run_program(argc, argv);
   } catch (const trackbed::InputError& error) {

@@ -6,12 +6,23 @@
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/signals.h"
 #include "apps/trackbed/simulation/simulate.h"
+#include "apps/trackbed/simulation/structures.h"
 #include "base/error.h"
+#include "fem/distributed_body.h"
+#include "fem/session.h"
 
 namespace trackbed::apps {
 
 int run_command(const RunOptions& o) {
   const Scene scene = read_scene(o.scene, o.set);
+  if (fem::rank() > 0) {
+    catch_stop_signals();  // rank 0 answers them
+    serve_structures(scene);
+    return 0;
+  }
+  const struct Release {
+    ~Release() { fem::release_ranks(); }
+  } release;
   const std::string path = o.output.empty() ? "results/" + scene.name : o.output;
   OutputFolder folder(path, earlier_run(o.resume, o.overwrite));
   catch_stop_signals();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fem/distributed_body.h"
 #include "fem/nonlinear_body.h"
 #include "fem/text.h"
 
@@ -136,7 +137,7 @@ std::unique_ptr<Structure> make_body(const SubgradeSite& site, ElasticBodyParame
         absorb(side, (site.x_high - site.x_low) / (site.mirror_x ? 1 : 2));
   if (site.absorbing_sides && !site.periodic_y)
     for (const char* side : {"y_min", "y_max"}) absorb(side, (site.y_high - site.y_low) / 2);
-  if (site.reduction == Reduction::none) return std::make_unique<ElasticBody>(std::move(p));
+  if (site.reduction == Reduction::none) return make_elastic_body(std::move(p));
   return reduced_body(std::move(p), site.reduction, site.modes);
 }
 

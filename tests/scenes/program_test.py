@@ -261,6 +261,29 @@ class Exchange(SceneTest):
         self.assertIn("several_steps", done.stderr)
 
 
+class Ranks(SceneTest):
+    def test_mpirun(self):
+        """Two ranks share the elastic bodies; only one prints and writes."""
+        alone = self.run_scene("alone", change=SHORT)
+        sets = [f"--set={k}={v}" for k, v in {**SHORT, "Packing/Folder": "packings"}.items()]
+        mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n", "2"]
+        root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+        def run(*arguments):
+            return subprocess.run([*mpirun, PROGRAM, "run", "tiny.prm", "--threads", "1", *arguments],
+                                  cwd=self.folder, text=True, capture_output=True, env={**os.environ, **root})
+        done = run("--output", "shared", *sets)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("results in"), 1)
+        self.assert_sound(self.folder / "shared")
+        for one, other in zip(rows(alone / "cycles.csv"), rows(self.folder / "shared" / "cycles.csv")):
+            for key in ("u_max_m", "settlement_m"):
+                self.assertAlmostEqual(float(one[key]), float(other[key]), delta=1e-5 * abs(float(one[key])))
+        wrong = run("--output", "wrong", "--set=Numerics/Margin=7")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertEqual(wrong.stderr.count("Numerics/Margin"), 1, wrong.stderr)
+
+
 class SameAnswer(SceneTest):
     def test_threads(self):
         # A hundred grains: enough for a second thread.

@@ -11,6 +11,7 @@
 #include "dem/packing/lower.h"
 #include "dem/packing/place.h"
 #include "dem/surface/rigid.h"
+#include "fem/distributed_body.h"
 
 namespace trackbed::apps {
 namespace {
@@ -145,6 +146,8 @@ void build_structures(Run& run) {
   w.surfaces.clear();
   run.actors.sleeper_surface = run.actors.subgrade_surface = -1;
   const double depth = shell_depth(run);
+  fem::ask_to_build(0, run.actors.sleeper_base);
+  const fem::BuildingTogether together;
   if (run.scene.sleeper.model != "rigid") {
     run.actors.sleeper_surface = static_cast<int>(w.surfaces.size());
     w.surfaces.push_back(coupling::make_surface(

@@ -1,6 +1,7 @@
 #include "apps/trackbed/simulation/structures.h"
 
 #include "fem/beam.h"
+#include "fem/distributed_body.h"
 #include "fem/reduction.h"
 #include "fem/subgrades/registry.h"
 
@@ -110,7 +111,7 @@ std::unique_ptr<fem::Structure> make_elastic_sleeper(const Scene& scene, const L
   if (scene.numerics.exchange == "explicit") p.mass = fem::Mass::lumped;
   if (s.reduction != "none")
     return fem::reduced_body(std::move(p), fem::reduction_of(s.reduction), s.modes);
-  return std::make_unique<fem::ElasticBody>(std::move(p));
+  return fem::make_elastic_body(std::move(p));
 }
 
 std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene& scene, const Layout& l) {
@@ -131,6 +132,17 @@ std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene& scene, cons
   site.absorbing_sides = scene.subgrade.absorbing == "sides" || scene.subgrade.absorbing == "all";
   site.absorbing_bottom = scene.subgrade.absorbing == "bottom" || scene.subgrade.absorbing == "all";
   return fem::make_subgrade(scene.subgrade.model, site, scene.subgrade.values);
+}
+
+void serve_structures(const Scene& scene) {
+  const Layout layout = make_layout(scene);
+  fem::serve([&](int, double base) {
+    const fem::BuildingTogether together;
+    std::vector<std::unique_ptr<fem::Structure>> built;
+    if (scene.sleeper.model != "rigid") built.push_back(make_elastic_sleeper(scene, layout, base));
+    if (scene.subgrade.model != "rigid") built.push_back(make_subgrade_structure(scene, layout));
+    return built;
+  });
 }
 
 }  // namespace trackbed::apps
