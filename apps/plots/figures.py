@@ -288,15 +288,13 @@ def overview(run):
                     "contacts a grain; stages are named above.")
 
 
-def pressure(run):
-    table = run.table("pressure.csv")
+def _pressure_map(axes, table):
+    """Draws a map of pressure (kPa) with its longer side across; what is drawn, and whether it was turned."""
     x, y, value = table["x_m"] * 1e3, table["y_m"] * 1e3, table["pressure_Pa"] / 1e3
-    across, along = np.unique(np.round(x, 6)), np.unique(np.round(y, 6))
-    ratio = np.ptp(y) / max(np.ptp(x), 1e-9)
-    swap = ratio > 1.2
+    swap = np.ptp(y) > 1.2 * max(np.ptp(x), 1e-9)
     if swap:
-        x, y, across, along, ratio = y, x, along, across, 1 / ratio
-    figure, axes = plt.subplots(figsize=(style.COLUMN[0], float(np.clip(5.2 * ratio + 0.9, 2.2, 4.6))))
+        x, y = y, x
+    across, along = np.unique(np.round(x, 6)), np.unique(np.round(y, 6))
     top = float(np.nanpercentile(value, 99.5)) or 1.0
     if len(across) * len(along) == len(value):
         grid = np.full((len(along), len(across)), np.nan)
@@ -309,11 +307,38 @@ def pressure(run):
     axes.grid(False)
     axes.set_xlabel("y (mm)" if swap else "x (mm)")
     axes.set_ylabel("x (mm)" if swap else "y (mm)")
-    bar = figure.colorbar(shown, ax=axes, label="contact pressure (kPa)", pad=0.02)
+    return shown
+
+
+def _height_for(table):
+    x, y = np.ptp(table["x_m"]), np.ptp(table["y_m"])
+    ratio = min(x, y) / max(x, y, 1e-9) if max(x, y) > 1.2 * min(x, y) else y / max(x, 1e-9)
+    return float(np.clip(5.2 * ratio + 0.9, 2.2, 4.6))
+
+
+def pressure(run):
+    table = run.table("pressure.csv")
+    figure, axes = plt.subplots(figsize=(style.COLUMN[0], _height_for(table)))
+    bar = figure.colorbar(_pressure_map(axes, table), ax=axes, label="contact pressure (kPa)", pad=0.02)
     bar.outline.set_visible(False)
     return figure, (f"Contact pressure under the sleeper (kPa), averaged over the load maxima: mean "
                     f"{number(measures.pressure_mean(run) / 1e3)} kPa, 99th percentile "
                     f"{number(measures.pressure_peak(run) / 1e3)} kPa. A few stones carry it, not a smooth bed.")
+
+
+def subgrade_pressure(run):
+    """Map and profile of what the ballast gives to the subgrade."""
+    table, profile = run.table("subgrade_pressure.csv"), run.table("subgrade_pressure_profile.csv")
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(style.COLUMN[0], _height_for(table) + 1.8),
+                                         height_ratios=(_height_for(table), 1.6))
+    bar = figure.colorbar(_pressure_map(top, table), ax=top, label="pressure (kPa)", pad=0.02)
+    bar.outline.set_visible(False)
+    bottom.plot(profile["x_m"] * 1e3, profile["pressure_Pa"] / 1e3, color=style.RUST)
+    bottom.set_xlabel("x (mm)")
+    bottom.set_ylabel("mean over y (kPa)")
+    value = table["pressure_Pa"] / 1e3
+    return figure, (f"Pressure on the subgrade (kPa) at the last load maximum, in cells of 50 mm, and its mean along the "
+                    f"track: mean {number(float(np.mean(value)))} kPa, largest cell {number(float(np.max(value)))} kPa.")
 
 
 def moment(run):

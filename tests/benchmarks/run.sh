@@ -13,5 +13,9 @@ printf '\n# Making and sizing grains\n' && "$build/tests/grains_benchmark"
 printf '\n# Grains in motion\n' && "$build/tests/motion_benchmark" 1000 300 "$build/tests"
 printf '\n# A structure'\''s step\n' && "$build/tests/fem_step_benchmark"
 printf '\n# Grains on a deforming surface\n' && "$build/tests/surface_benchmark"
+printf '\n# A structure shared by ranks\n'
+for n in 1 2 4; do
+  OMP_NUM_THREADS=1 mpirun --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n $n "$build/tests/distributed_benchmark" 20
+done
 printf '\n# The settled bed\n'
 /usr/bin/python3 "$root/tests/benchmarks/bed.py" "$build/trackbed" "${1:-$root/apps/scenes/ballast_box.prm}"

@@ -126,6 +126,17 @@ class Runs(SceneTest):
         self.assertTrue(list(run.glob("structure_subgrade_*.vtu")))
         contacts = {row["contacts"] for row in rows(run / "history.csv") if row["stage"] == "loading"}
         self.assertTrue(all(int(n) > 20 for n in contacts))
+        # The ground carries ballast, sleeper and load; the seat the load.
+        pressure = rows(run / "subgrade_pressure.csv")
+        area = 0.13 * 0.11 / len(pressure)
+        weight = 9.81 * (float(self.summary(run)["grain mass"]) + 2800 * 0.07 * 0.08 * 0.03)
+        carried = sum(float(row["pressure_Pa"]) for row in pressure) * area
+        self.assertAlmostEqual(carried, 100 + weight, delta=0.25 * (100 + weight))
+        (seat,) = rows(run / "rail_seats.csv")
+        self.assertEqual(float(seat["load_N"]), 100)
+        profile = rows(run / "subgrade_pressure_profile.csv")
+        mean = sum(float(row["pressure_Pa"]) for row in profile) / len(profile)
+        self.assertAlmostEqual(mean * 0.13 * 0.11, carried, delta=1e-6 * carried)
 
     def test_rigid(self):
         run = self.run_scene("a", change={"Sleeper/Model": "rigid", "Subgrade/Model": "rigid"})

@@ -205,6 +205,9 @@ def make_run(folder, grains=70, elastic=True, seed=1, nudge=0.0, cycles=12):
     press = [(a, b, max(0, 9e5 * (1 + (0.35 if elastic else 0.75) * (a / 0.13) ** 2 * 1.2) * (0.6 + 0.4 * np.cos(9 * b))
                         * rng.gamma(2.0, 0.5))) for a in x for b in y]
     write_csv(to("pressure.csv"), ["x_m", "y_m", "pressure_Pa"], press)
+    write_csv(to("subgrade_pressure.csv"), ["x_m", "y_m", "pressure_Pa"], press)
+    write_csv(to("subgrade_pressure_profile.csv"), ["x_m", "pressure_Pa"],
+              [(a, np.mean([p for b, _, p in press if b == a])) for a in x])
     s = np.linspace(-0.15, 0.15, 41)
     if elastic:
         write_csv(to("moment.csv"), ["x_m", "deflection_m", "moment_Nm"],
@@ -533,10 +536,10 @@ class Report(Folder):
         text = self.page(folder, pictures=True)
         self.assertNotIn("is not shown", text)
         for name in ("bed", "chains", "structures", "settlement", "loops", "stiffness", "gradation", "compaction",
-                     "energy", "timing", "pressure", "moment", "history", "forces", "porosity", "sections"):
+                     "energy", "timing", "pressure", "moment", "subgrade_pressure", "history", "forces", "porosity", "sections"):
             self.assertTrue(os.path.exists(os.path.join(folder, name + ".png")), name)
         self.assertIn("not a track's life".replace("'", "&#x27;"), text)
-        self.assertEqual(text.count("<img"), 16)
+        self.assertEqual(text.count("<img"), 17)
         for resource in ("http://", "https://", "src=\"/", "<script", "<link"):
             self.assertNotIn(resource, text)
 

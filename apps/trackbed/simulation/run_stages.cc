@@ -9,6 +9,7 @@
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/materials.h"
+#include "apps/trackbed/simulation/subgrade_bearing.h"
 #include "base/error.h"
 #include "coupling/time_step.h"
 #include "dem/motion/monitor.h"
@@ -185,7 +186,9 @@ bool record_cycle(Run& run, const Stage& stage, Recorder& recorder, const std::s
     s.u_max = sleeper_displacement(run) - s.u0;
     s.load_max = s.load;
     keep_pressure(run);
-    write_moment(run, folder + "/moment.csv");  // of the last peak
+    write_moment(run, folder + "/moment.csv");  // these of the last peak
+    write_rail_seats(run, folder + "/rail_seats.csv");
+    write_subgrade_pressure(run, folder);
   }
   if (phase != 0) return false;
   ++s.cycles;
