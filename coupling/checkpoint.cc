@@ -116,6 +116,13 @@ void visit_all(A& archive, World& w) {
   archive("step", step);
   w.step = static_cast<long>(step);
   visit(archive, w.bodies);
+  int resists = w.pairs.resists;
+  archive("pairs/resists", resists);
+  w.pairs.resists = resists;
+  std::vector<double> damping{w.adaptive_damping.alpha, w.adaptive_damping.kinetic};
+  archive("adaptive_damping", damping);
+  if (damping.size() != 2) throw InputError("checkpoint: 'adaptive_damping' has another length");
+  w.adaptive_damping = {damping[0], damping[1]};
   dem::for_each_array(w.pairs,
                       [&](const char* name, auto& v) { archive(std::string("pairs/") + name, v); });
   dem::Candidates::State c = w.candidates.state();

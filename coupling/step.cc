@@ -42,6 +42,7 @@ void contact_forces(World& w, const dem::StepContext& c, bool iterates) {
   {
     Stopwatch watch(w.times.grain_contacts);
     w.pair_forces.evaluate(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), w.pairs);
+    if (w.resistance.any()) dem::add_resistance(w.resistance, w.bodies, w.materials, c, w.pairs);
     dem::sum_forces(w.pairs, c, w.bodies);
   }
   Stopwatch watch(w.times.surface_contacts);
@@ -109,6 +110,7 @@ void advance(World& w, const dem::StepContext& c, const Drive& drive) {
     }
     Stopwatch watch(w.times.motion);
     work += dem::kick(w.bodies, c);
+    if (w.adaptive) work.local_damping += dem::damp(w.adaptive_damping, w.bodies, c);
     w.flows.work += work.applied;
     w.flows.prescribed += work.prescribed;
     w.flows.local_damping += work.local_damping;

@@ -16,7 +16,9 @@
 #include "dem/contact/candidates.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/pairs.h"
+#include "dem/contact/resistance.h"
 #include "dem/contact/shape_table.h"
+#include "dem/motion/adaptive_damping.h"
 #include "dem/motion/bodies.h"
 #include "dem/motion/motion.h"
 #include "dem/surface/patch.h"
@@ -56,6 +58,9 @@ struct World {
   dem::Candidates candidates;
   dem::Pairs pairs;
   dem::PairForces pair_forces;
+  dem::ResistanceSettings resistance;  ///< of grains and rigid bodies; off unless set
+  bool adaptive = false;               ///< Shao's damping after each step
+  dem::AdaptiveDamping adaptive_damping;
   dem::EvaluatePatch patch_forces = nullptr;
   std::vector<Surface> surfaces;
   Exchange exchange;

@@ -125,6 +125,16 @@ void add_contact(Section s) {
   s.number("Tangential ratio", "0.25", "-", 0, 10, "tangential over normal stiffness (k_s/k_n)");
   s.number("Local damping", "0", "-", 0, 0.95,
            "share of the unbalanced force that opposes motion while loading; 0 = off");
+  s.choice(
+      "Damping", "local", {"local", "adaptive", "none"},
+      "of the grains' motion: local, by the two keys below; adaptive, global with Shao's alpha "
+      "(Shao 2017, Eq. 27), in their place");
+  s.number("Torsional friction", "0", "-", 0, 10,
+           "share of mu F_n times the contact's mean radius that resists turning about the normal, "
+           "1 = Coulomb's; grains and rigid bodies; 0 = off");
+  s.number("Rolling resistance", "0", "-", 0, 10,
+           "coefficient mu_r of an elastic-plastic rolling spring (Ai 2011, model C); grains and "
+           "rigid bodies; 0 = off");
   s.number("Packing damping", "0.4", "-", 0, 0.95, "the same while packing");
   s.number("Largest overlap", "0.2", "-", 1e-6, 0.5,
            "depth over the grain's sieve size at which a run stops");
@@ -221,6 +231,9 @@ void add_loading(Section s) {
 void add_numerics(Section s) {
   s.number("Margin", "0.2", "-", 1e-4, 1, "time step as a share of the stability limit");
   s.number("Packing margin", "0.3", "-", 1e-4, 1, "the same while packing");
+  s.choice("Time step rule", "tangent", {"tangent", "sun2015", "rayleigh"},
+           "tangent: margins of the true limit; sun2015: T_min/40 of the lightest grain; rayleigh: "
+           "a wave's time over the smallest grain; refused when over the limit");
   s.number("Time step", "0", "s", 0, 1, "fixed step of all stages; 0 = from the margins");
   s.number("Spectral radius", "0.9", "-", 0, 1,
            "of generalised-alpha at infinite frequency; 1 = Newmark's trapezoidal rule");

@@ -75,6 +75,9 @@ ContactScene contact(const Values& v) {
   c.modulus = v.number("Contact/Contact modulus");
   c.packing_modulus = v.number("Contact/Packing modulus");
   c.tangential_ratio = v.number("Contact/Tangential ratio");
+  c.damping_kind = v.text("Contact/Damping");
+  c.torsion = v.number("Contact/Torsional friction");
+  c.rolling = v.number("Contact/Rolling resistance");
   c.damping = v.number("Contact/Local damping");
   c.packing_damping = v.number("Contact/Packing damping");
   c.largest_overlap = v.number("Contact/Largest overlap");
@@ -166,6 +169,7 @@ NumericsScene numerics(const Values& v) {
   NumericsScene n{};
   n.margin = v.number("Numerics/Margin");
   n.packing_margin = v.number("Numerics/Packing margin");
+  n.step_rule = v.text("Numerics/Time step rule");
   n.time_step = v.number("Numerics/Time step");
   n.spectral_radius = v.number("Numerics/Spectral radius");
   n.exchange = v.text("Numerics/Exchange");

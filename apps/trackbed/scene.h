@@ -54,13 +54,16 @@ struct GradationScene {
 };
 
 struct ContactScene {
-  std::string law;          ///< "stored_energy" | "shao2017"
-  double modulus;           ///< contact modulus of the loading stage [Pa]
-  double packing_modulus;   ///< softer, while packing [Pa]
-  double tangential_ratio;  ///< k_s/k_n
-  double damping;           ///< local damping while loading; 0 = off
-  double packing_damping;   ///< local damping while packing
-  double largest_overlap;   ///< share of the grain's size at which a run stops
+  std::string law;           ///< "stored_energy" | "shao2017"
+  double modulus;            ///< contact modulus of the loading stage [Pa]
+  double packing_modulus;    ///< softer, while packing [Pa]
+  double tangential_ratio;   ///< k_s/k_n
+  std::string damping_kind;  ///< "local" | "adaptive" | "none"
+  double torsion;            ///< share of Coulomb's torsional limit; 0 = off
+  double rolling;            ///< coefficient of rolling resistance; 0 = off
+  double damping;            ///< local damping while loading; 0 = off
+  double packing_damping;    ///< local damping while packing
+  double largest_overlap;    ///< share of the grain's size at which a run stops
 };
 
 struct PackingScene {
@@ -119,6 +122,7 @@ struct LoadingScene {
 struct NumericsScene {
   double margin;  ///< share of the stability limit
   double packing_margin;
+  std::string step_rule;      ///< "tangent" | "sun2015" | "rayleigh"
   double time_step;           ///< fixed step [s]; 0 = from margin
   double spectral_radius;     ///< of generalised-alpha at infinite frequency; 1 = Newmark
   std::string exchange;       ///< schedule of coupling/exchange.h

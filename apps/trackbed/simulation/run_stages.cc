@@ -44,6 +44,20 @@ void choose_step(Run& run, const Stage& stage) {
     throw InputError(text);
   }
   dt = std::min(dt, coupling::schedule_limit(run.world));
+  if (n.step_rule != "tangent" && n.time_step == 0) {
+    const double by_rule =
+        dem::rule_of_thumb(n.step_rule, run.world.bodies, run.world.shapes, run.world.materials);
+    if (by_rule > std::min(limit.dt, now.dt)) {
+      char text[240];
+      std::snprintf(text, sizeof text,
+                    "Numerics/Time step rule: '%s' gives %.3g s, over the stability limit of stage "
+                    "'%s' (%.3g s); 'tangent' would take %.3g s",
+                    n.step_rule.c_str(), by_rule, stage.name.c_str(), std::min(limit.dt, now.dt),
+                    dt);
+      throw InputError(text);
+    }
+    dt = by_rule;
+  }
   for (const coupling::Surface& s : run.world.surfaces)
     dt = std::min(dt, 0.99 * s.structure->largest_step() / per_exchange);
   if (n.time_step > 0) {
@@ -68,11 +82,19 @@ void choose_step(Run& run, const Stage& stage) {
   set_step(run, dt);
 }
 
+void choose_laws(Run& run, const Stage& stage) {
+  const ContactScene& c = run.scene.contact;
+  run.world.materials = make_materials(run.scene, stage.modulus, stage.friction);
+  run.world.pair_forces = dem::make_pair_forces(c.law, true);
+  run.world.patch_forces = dem::make_patch_forces(c.law, true);
+  run.world.resistance = {c.torsion, c.rolling};
+  run.world.adaptive = c.damping_kind == "adaptive";
+}
+
 void enter(Run& run, const Stage& stage) {
   stage.enter(run);
-  run.world.materials = make_materials(run.scene, stage.modulus, stage.friction);
-  run.world.pair_forces = dem::make_pair_forces(run.scene.contact.law, true);
-  run.world.patch_forces = dem::make_patch_forces(run.scene.contact.law, true);
+  choose_laws(run, stage);
+  run.world.adaptive_damping = {};
   StageState& s = run.stage;
   s.steps = s.cycles = s.halvings = 0;
   s.start = run.world.time;
@@ -264,9 +286,7 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     s.index = first_index + k;
     const bool resumed = s.dt > 0 && s.steps > 0;
     if (resumed) {
-      run.world.materials = make_materials(run.scene, stage.modulus, stage.friction);
-      run.world.pair_forces = dem::make_pair_forces(run.scene.contact.law, true);
-      run.world.patch_forces = dem::make_patch_forces(run.scene.contact.law, true);
+      choose_laws(run, stage);
       set_step(run, s.dt);
     } else {
       enter(run, stage);

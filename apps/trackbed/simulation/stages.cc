@@ -123,7 +123,7 @@ std::vector<Stage> loading_stages(const Scene& s) {
 dem::StepContext step_context(const Run& run, const Stage& stage) {
   dem::StepContext c;
   c.dt = run.stage.dt;
-  c.local_damping = stage.damping;
+  c.local_damping = run.scene.contact.damping_kind == "local" ? stage.damping : 0;
   c.period = run.layout.period;
   // Handing out work costs microseconds: a thread for every hundred grains at most. The answer does
   // not depend on it.
