@@ -26,12 +26,12 @@ void visit(A& archive, dem::Bodies& b) {
     b.R[i] << columns[3 * i], columns[3 * i + 1], columns[3 * i + 2];
 }
 
-// All shapes in one set of arrays.
+// All shapes in one set of arrays: their bodies, then their parts' cores.
 struct FlatShapes {
-  std::vector<int> vertices, faces, face_sizes, loops;
+  std::vector<int> vertices, faces, face_sizes, loops, parts;
   std::vector<dem::Vec3> vertex, inertia, origin;
   std::vector<dem::Quat> turn;
-  std::vector<double> volume, radius, sieve_size;
+  std::vector<double> volume, radius, sieve_size, part_radius, crown, mean_square;
 };
 
 template <class A>
@@ -42,18 +42,47 @@ void visit(A& archive, FlatShapes& s) {
   archive("shapes/origin", s.origin), archive("shapes/turn", s.turn);
   archive("shapes/volume", s.volume), archive("shapes/radius", s.radius);
   archive("shapes/sieve_size", s.sieve_size);
+  archive("shapes/parts", s.parts), archive("shapes/part_radius", s.part_radius);
+  archive("shapes/crown", s.crown), archive("shapes/mean_square", s.mean_square);
 }
+
+void append(const dem::Polyhedron& p, FlatShapes& f) {
+  f.vertices.push_back(static_cast<int>(p.vertices.size()));
+  f.faces.push_back(static_cast<int>(p.faces.size()));
+  f.vertex.insert(f.vertex.end(), p.vertices.begin(), p.vertices.end());
+  for (const auto& face : p.faces) {
+    f.face_sizes.push_back(static_cast<int>(face.size()));
+    f.loops.insert(f.loops.end(), face.begin(), face.end());
+  }
+}
+
+// Reads the polyhedra in the order they were appended.
+struct PolyhedronReader {
+  const FlatShapes& f;
+  std::size_t polyhedron = 0, vertex = 0, face = 0, loop = 0;
+  dem::Polyhedron next() {
+    dem::Polyhedron p;
+    for (int i = 0; i < f.vertices[polyhedron]; ++i) p.vertices.push_back(f.vertex[vertex++]);
+    for (int i = 0; i < f.faces[polyhedron]; ++i) {
+      p.faces.emplace_back();
+      for (int j = 0; j < f.face_sizes[face]; ++j) p.faces.back().push_back(f.loops[loop++]);
+      ++face;
+    }
+    ++polyhedron;
+    return p;
+  }
+};
 
 FlatShapes flatten(const dem::ShapeTable& table) {
   FlatShapes f;
   for (int k = 0; k < table.size(); ++k) {
     const dem::GrainShape& s = table.shape(k);
-    f.vertices.push_back(static_cast<int>(s.body.vertices.size()));
-    f.faces.push_back(static_cast<int>(s.body.faces.size()));
-    f.vertex.insert(f.vertex.end(), s.body.vertices.begin(), s.body.vertices.end());
-    for (const auto& face : s.body.faces) {
-      f.face_sizes.push_back(static_cast<int>(face.size()));
-      f.loops.insert(f.loops.end(), face.begin(), face.end());
+    append(s.body, f);
+    f.parts.push_back(static_cast<int>(s.parts.size()));
+    for (const dem::ConvexPart& part : s.parts) {
+      append(part.core, f);
+      f.part_radius.push_back(part.radius), f.crown.push_back(part.crown);
+      f.mean_square.push_back(part.mean_square);
     }
     f.inertia.push_back(s.inertia), f.origin.push_back(s.origin), f.turn.push_back(s.turn);
     f.volume.push_back(s.volume), f.radius.push_back(s.radius);
@@ -64,15 +93,14 @@ FlatShapes flatten(const dem::ShapeTable& table) {
 
 dem::ShapeTable unflatten(const FlatShapes& f) {
   dem::ShapeTable table;
-  std::size_t vertex = 0, face = 0, loop = 0;
-  for (std::size_t k = 0; k < f.vertices.size(); ++k) {
+  PolyhedronReader polyhedra{f};
+  std::size_t part = 0;
+  for (std::size_t k = 0; k < f.parts.size(); ++k) {
     dem::GrainShape s;
-    for (int i = 0; i < f.vertices[k]; ++i) s.body.vertices.push_back(f.vertex[vertex++]);
-    for (int i = 0; i < f.faces[k]; ++i) {
-      s.body.faces.emplace_back();
-      for (int j = 0; j < f.face_sizes[face]; ++j) s.body.faces.back().push_back(f.loops[loop++]);
-      ++face;
-    }
+    s.body = polyhedra.next();
+    for (int i = 0; i < f.parts[k]; ++i, ++part)
+      s.parts.push_back(
+          {polyhedra.next(), f.part_radius[part], f.crown[part], f.mean_square[part]});
     s.inertia = f.inertia[k], s.origin = f.origin[k], s.turn = f.turn[k];
     s.volume = f.volume[k], s.radius = f.radius[k], s.sieve_size = f.sieve_size[k];
     table.add(s);
@@ -82,12 +110,13 @@ dem::ShapeTable unflatten(const FlatShapes& f) {
 
 template <class A>
 void visit(A& archive, EnergyFlows& f, EnergyStores& s) {
-  std::vector<double> v{f.work,    f.prescribed, f.friction, f.local_damping,
-                        s.kinetic, s.gravity,    s.contact,  s.structure};
+  std::vector<double> v{f.work,    f.prescribed, f.friction,  f.local_damping,  s.kinetic,
+                        s.gravity, s.contact,    s.structure, f.contact_damping};
   archive("ledger", v);
-  if (v.size() != 8) throw InputError("checkpoint: 'ledger' has another length");
+  if (v.size() != 9) throw InputError("checkpoint: 'ledger' has another length");
   f.work = v[0], f.prescribed = v[1], f.friction = v[2], f.local_damping = v[3];
   s.kinetic = v[4], s.gravity = v[5], s.contact = v[6], s.structure = v[7];
+  f.contact_damping = v[8];
 }
 
 template <class A>
@@ -177,6 +206,7 @@ void read_surfaces(ArchiveReader& archive, World& w) {
                        std::to_string(s.patch.node.size()) + " nodes, the scene's " +
                        std::to_string(nodes) + ")");
     s.contacts.nodal.assign(s.contacts.size(), {});
+    dem::find_round(w.bodies, w.shapes, s.contacts);
     std::vector<double> state;
     archive(at(k) + "structure", state);
     s.structure->load(state);

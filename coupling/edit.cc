@@ -23,9 +23,17 @@ void gather_bodies(dem::Bodies& b, const std::vector<int>& order) {
   gather(b.material, order), gather(b.freedom, order);
 }
 
-// The same pair seen from its other body: a < b always.
+// The two parts may stand in either order, then a < b.
+bool symmetric(const World& w, int p) {
+  const dem::Pairs& k = w.pairs;
+  return w.shapes.part(w.bodies.shape[k.a[p]], k.part_a[p]).kind ==
+         w.shapes.part(w.bodies.shape[k.b[p]], k.part_b[p]).kind;
+}
+
+// The same pair seen from its other body.
 void turn_pair(dem::Pairs& pairs, int p) {
   std::swap(pairs.a[p], pairs.b[p]);
+  std::swap(pairs.part_a[p], pairs.part_b[p]);
   std::swap(pairs.arm_a[p], pairs.arm_b[p]);
   for (auto* v : {&pairs.axis, &pairs.friction, &pairs.force, &pairs.couple, &pairs.normal_force})
     (*v)[p] = -(*v)[p];
@@ -59,13 +67,13 @@ void reorder(World& w, const std::vector<int>& order, int grains) {
   for (std::size_t p = 0; p < kept.size(); ++p) {
     pairs.a[p] = now[pairs.a[p]];
     pairs.b[p] = now[pairs.b[p]];
-    if (pairs.a[p] > pairs.b[p]) turn_pair(pairs, static_cast<int>(p));
+    const int k = static_cast<int>(p);
+    if (pairs.a[p] > pairs.b[p] && symmetric(w, k)) turn_pair(pairs, k);
   }
   std::vector<int> sorted(kept.size());
   std::iota(sorted.begin(), sorted.end(), 0);
-  std::sort(sorted.begin(), sorted.end(), [&](int p, int q) {
-    return std::pair(pairs.a[p], pairs.b[p]) < std::pair(pairs.a[q], pairs.b[q]);
-  });
+  std::sort(sorted.begin(), sorted.end(),
+            [&](int p, int q) { return pairs.key(p) < pairs.key(q); });
   dem::for_each_array(pairs, [&](const char*, auto& array) { gather(array, sorted); });
   pairs.index_bodies(w.bodies.size());
 }

@@ -13,17 +13,18 @@ using dem::Vec3;
 // What the contacts remember from step to step.
 struct History {
   std::vector<Vec3> friction, arm;
-  std::vector<double> friction_stiffness;
+  std::vector<double> friction_stiffness, viscous;
   std::vector<std::uint8_t> touching;
 };
 
 History history_of(const dem::PatchContacts& k) {
-  return {k.friction, k.arm, k.friction_stiffness, k.touching};
+  return {k.friction, k.arm, k.friction_stiffness, k.viscous, k.touching};
 }
 
 void put_back(const History& h, dem::PatchContacts& k) {
   k.friction = h.friction, k.arm = h.arm;
   k.friction_stiffness = h.friction_stiffness, k.touching = h.touching;
+  k.viscous = h.viscous;
 }
 
 double deepest(const dem::PatchContacts& k) {
@@ -61,7 +62,7 @@ void iterate(World& w, Surface& s, const dem::StepContext& c) {
   double factor = 1, remains = 0;
   for (int k = 0; k < w.exchange.most_iterations; ++k) {
     if (k > 0) put_back(before, s.contacts);
-    w.patch_forces(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), s.patch, s.contacts);
+    evaluate_surface(w, s, c);
     dem::sum_node_forces(s.contacts, s.patch);
     for (int i = 0; i < n; ++i) {
       const Vec3& f = s.patch.force[i];

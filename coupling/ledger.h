@@ -12,6 +12,7 @@ struct EnergyFlows {
   double prescribed = 0;           ///< of what holds prescribed motions
   double friction = 0;             ///< dissipated
   double local_damping = 0;        ///< dissipated
+  double contact_damping = 0;      ///< dissipated, dashpots of contacts
   double structure_damping = 0;    ///< dissipated, Rayleigh and dashpots
   double structure_plastic = 0;    ///< dissipated in materials with history
   double structure_numerical = 0;  ///< taken out by the structures' time integration
@@ -30,7 +31,8 @@ struct EnergyStores {
 /// What does not add up [J]; > 0: energy was created.
 inline double closure(const EnergyStores& start, const EnergyStores& now, const EnergyFlows& f) {
   return now.total() - start.total() - f.work - f.prescribed + f.friction + f.local_damping +
-         f.structure_damping + f.structure_plastic + f.structure_numerical + f.transfer_error;
+         f.contact_damping + f.structure_damping + f.structure_plastic + f.structure_numerical +
+         f.transfer_error;
 }
 
 }  // namespace trackbed::coupling

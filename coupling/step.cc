@@ -42,6 +42,8 @@ void contact_forces(World& w, const dem::StepContext& c, bool iterates) {
   {
     Stopwatch watch(w.times.grain_contacts);
     w.pair_forces.evaluate(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), w.pairs);
+    if (w.pairs.round() > 0)
+      w.round_forces.evaluate(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), w.pairs);
     if (w.resistance.any()) dem::add_resistance(w.resistance, w.bodies, w.materials, c, w.pairs);
     dem::sum_forces(w.pairs, c, w.bodies);
   }
@@ -50,8 +52,7 @@ void contact_forces(World& w, const dem::StepContext& c, bool iterates) {
     if (iterates)
       iterate(w, s, c);
     else
-      w.patch_forces(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), s.patch,
-                     s.contacts);
+      evaluate_surface(w, s, c);
     dem::sum_patch_forces(s.contacts, w.bodies, s.patch);
   }
 }
@@ -60,6 +61,14 @@ double friction_loss(const World& w, int threads) {
   double sum = dem::friction_loss(w.pairs, threads);
   for (const Surface& s : w.surfaces)
     for (const double loss : s.contacts.friction_loss) sum += loss;
+  return sum;
+}
+
+double contact_damping(const World& w, int threads) {
+  if (!w.round_forces.evaluate) return 0;
+  double sum = dem::viscous_loss(w.pairs, threads);
+  for (const Surface& s : w.surfaces)
+    for (const double loss : s.contacts.viscous_loss) sum += loss;
   return sum;
 }
 
@@ -115,6 +124,7 @@ void advance(World& w, const dem::StepContext& c, const Drive& drive) {
     w.flows.prescribed += work.prescribed;
     w.flows.local_damping += work.local_damping;
     w.flows.friction += friction_loss(w, c.threads);
+    w.flows.contact_damping += contact_damping(w, c.threads);
     ++w.times.steps;
   }
 }

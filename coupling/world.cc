@@ -23,6 +23,13 @@ Surface make_surface(const std::string& name, int material, double shell_depth, 
   return s;
 }
 
+void evaluate_surface(World& w, Surface& s, const dem::StepContext& c) {
+  w.patch_forces(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), s.patch, s.contacts);
+  if (s.contacts.round < s.contacts.size())
+    w.round_patch_forces(w.bodies, w.shapes, w.materials, c, w.candidates.travel(), s.patch,
+                         s.contacts);
+}
+
 EnergyStores stores(const World& w, const Vec3& gravity) {
   EnergyStores e;
   const dem::Energies d = dem::energies(w.bodies, w.pairs, gravity);

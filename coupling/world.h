@@ -17,12 +17,14 @@
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/pairs.h"
 #include "dem/contact/resistance.h"
+#include "dem/contact/round_forces.h"
 #include "dem/contact/shape_table.h"
 #include "dem/motion/adaptive_damping.h"
 #include "dem/motion/bodies.h"
 #include "dem/motion/motion.h"
 #include "dem/surface/patch.h"
 #include "dem/surface/patch_forces.h"
+#include "dem/surface/round_patch.h"
 #include "fem/structure.h"
 
 namespace trackbed::coupling {
@@ -58,10 +60,12 @@ struct World {
   dem::Candidates candidates;
   dem::Pairs pairs;
   dem::PairForces pair_forces;
+  dem::RoundForces round_forces;  ///< may stay empty where all bodies are polyhedra
   dem::ResistanceSettings resistance;  ///< of grains and rigid bodies; off unless set
   bool adaptive = false;               ///< Shao's damping after each step
   dem::AdaptiveDamping adaptive_damping;
   dem::EvaluatePatch patch_forces = nullptr;
+  dem::EvaluatePatch round_patch_forces = nullptr;  ///< of spheres and dilated polyhedra
   std::vector<Surface> surfaces;
   Exchange exchange;
 
@@ -80,6 +84,9 @@ using Drive = std::function<void(World&, double time)>;
 /// `skirt` as in dem::make_patch.
 Surface make_surface(const std::string& name, int material, double shell_depth, double skirt,
                      const dem::Vec3& period, std::unique_ptr<fem::Structure>);
+
+/// Contacts of the grains with one surface where both are; writes the contacts, sums nothing.
+void evaluate_surface(World&, Surface&, const dem::StepContext&);
 
 /// Searches candidates and evaluates all forces where the bodies stand; to be called when a stage
 /// starts or after bodies were added. Opens no step.

@@ -6,6 +6,10 @@ endfunction()
 
 motion_test(motion_rotation verification)
 motion_test(motion_impact verification)
+motion_test(sphere_impact verification)
+motion_test(dilated_contact verification)
+target_include_directories(dilated_contact_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/verification)
+motion_test(clump_contact unit)
 motion_test(statics_block hard)
 motion_test(motion_pile hard)
 motion_test(motion_impacts hard)
@@ -24,3 +28,7 @@ target_link_libraries(motion_benchmark PRIVATE settled_bed)
 # The bed of the benchmarks, in tests.
 trackbed_test(bed_threads hard settled_bed)
 motion_test(bed_quiet slow)
+
+add_executable(shapes_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/shapes_benchmark.cc)
+target_link_libraries(shapes_benchmark PRIVATE trackbed_dem)
+target_include_directories(shapes_benchmark PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)

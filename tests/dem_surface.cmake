@@ -6,6 +6,7 @@ endfunction()
 
 surface_test(surface_patch unit)
 surface_test(surface_energy verification)
+surface_test(surface_round verification)
 
 add_executable(surface_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/surface_benchmark.cc)
 target_link_libraries(surface_benchmark PRIVATE trackbed_dem)

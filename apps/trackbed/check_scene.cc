@@ -5,6 +5,8 @@
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/grain_estimate.h"
+#include "apps/trackbed/simulation/grains.h"
+#include "apps/trackbed/simulation/materials.h"
 #include "base/error.h"
 #include "dem/grading/curve.h"
 
@@ -91,6 +93,14 @@ void check_grains(const Check& c) {
   const auto& d = c.scene.gradation;
   if (d.needle_share + d.flaky_share > 100)
     c.refuse("Gradation/Needle share", "at most 100 % together with Gradation/Flaky share");
+}
+
+void check_shapes(const Check& c) {
+  const auto& g = c.scene.grains;
+  const bool rounded = has_shape(c.scene, "clump") || has_shape(c.scene, "dilated");
+  if (rounded && g.sieve_method != "exact")
+    c.refuse("Grains/Sieve method", "clumps and dilated grains are sized by exact only");
+  make_materials(c.scene, c.scene.contact.modulus, g.friction);  // reads Contact/Pairs
 }
 
 void check_measures(const Check& c) {
@@ -203,6 +213,7 @@ void check_exchange(const Check& c) {
 void check_scene(const Scene& scene, const ParameterValues& values) {
   const Check check{scene, values};
   check_grains(check);
+  check_shapes(check);
   check_measures(check);
   check_sleeper(check);
   check_shoulder(check);

@@ -1,6 +1,8 @@
 #include "apps/trackbed/choices.h"
 
 #include "coupling/exchange.h"
+#include "dem/contact/pair_forces.h"
+#include "dem/contact/round_forces.h"
 #include "dem/grading/curve.h"
 #include "dem/grading/sieve_size.h"
 #include "dem/grain/library.h"
@@ -12,11 +14,15 @@ namespace trackbed::apps {
 
 std::vector<std::string> grain_generators() { return dem::generator_names(); }
 
+std::vector<std::string> grain_shapes() { return {"polyhedron", "dilated", "clump", "sphere"}; }
+
 std::vector<std::string> sieve_methods() { return dem::sieve_method_names(); }
 
 std::vector<std::string> gradation_curves() { return dem::curve_names(); }
 
-std::vector<std::string> contact_laws() { return {"stored_energy", "shao2017"}; }
+std::vector<std::string> contact_laws() { return dem::pair_law_names(); }
+
+std::vector<std::string> round_laws() { return dem::round_law_names(); }
 
 std::vector<std::string> subgrade_models() {
   std::vector<std::string> names{"rigid"};

@@ -8,9 +8,11 @@
 namespace trackbed::apps {
 
 std::vector<std::string> grain_generators();
+std::vector<std::string> grain_shapes();
 std::vector<std::string> sieve_methods();
 std::vector<std::string> gradation_curves();  ///< without "table"
 std::vector<std::string> contact_laws();
+std::vector<std::string> round_laws();
 std::vector<std::string> subgrade_models();  ///< "rigid" first
 std::vector<std::string> waveforms();
 std::vector<std::string> reductions();

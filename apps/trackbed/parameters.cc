@@ -69,6 +69,15 @@ void add_container(Section s) {
 
 void add_grains(Section s) {
   s.choice("Generator", "voronoi", grain_generators(), "of the library of convex grains");
+  s.choice("Shape", "polyhedron", grain_shapes(),
+           "polyhedron; dilated: a polyhedron within a rounding; clump: Jin's stones filled with "
+           "spheres; sphere");
+  s.choice("Other shape", "sphere", grain_shapes(), "of a second kind of grains, see Other share");
+  s.number("Other share", "0", "-", 0, 1, "of the library that has the other shape");
+  s.number("Dilation", "0.05", "-", 1e-3, 0.4, "dilated: radius as a share of the sieve size");
+  s.number("Clump least radius", "0.25", "-", 0.02, 0.5,
+           "clump: of a sphere over the stone's width, R_lim of Jin 2017 (0.12: about 50 spheres)");
+  s.number("Clump space factor", "1.3", "-", 1, 10, "clump: K of Jin 2017; more = fewer spheres");
   s.integer("Library size", "600", 1, 1e6, "shapes to draw from");
   s.number("Sphericity", "0", "-", 0, 0.999,
            "target of the library's mean (Wadell), by stretching; 0 = as generated");
@@ -123,6 +132,17 @@ void add_contact(Section s) {
            "E of Eq. 17 while loading; a softer one allows larger steps and overlaps (rock: 5e10)");
   s.number("Packing modulus", "2e8", "Pa", 1e3, 1e13, "E of Eq. 17 while packing");
   s.number("Tangential ratio", "0.25", "-", 0, 10, "tangential over normal stiffness (k_s/k_n)");
+  s.choice("Round law", "hertz_mindlin", round_laws(),
+           "of every contact with a sphere, clump or dilated grain; Contact modulus is its E*");
+  s.number("Restitution", "0.5", "-", 0.01, 1,
+           "of round contacts, head on, by a dashpot; 1 = no dashpot");
+  s.number("Poisson", "0.25", "-", 0, 0.49999,
+           "of the rock: tangential over normal stiffness of round contacts, 2(1-nu)/(2-nu)");
+  s.number("Stiffness", "1e6", "N/m", 1, 1e12, "of Round law = linear (Jin 2017)");
+  s.text("Pairs", "", "-",
+         "what differs for a pair of materials, such as grain-wall: friction 0.3, restitution 0.4; "
+         "grain-sleeper: modulus 1e9. Materials: grain, wall, plate, sleeper, subgrade; values: "
+         "modulus, friction, ratio, restitution, stiffness");
   s.number("Local damping", "0", "-", 0, 0.95,
            "share of the unbalanced force that opposes motion while loading; 0 = off");
   s.choice(

@@ -68,7 +68,7 @@ coupling::World sample_of_smallest(const Scene& scene, double size) {
   dem::LibraryParameters parameters = library_parameters(scene);
   parameters.count = std::max(24, parameters.needles + parameters.flakes);
   std::vector<dem::GrainShape> shapes;
-  for (const auto& shape : dem::make_library(parameters))
+  for (const auto& shape : make_grain_library(scene, parameters, {}))
     shapes.push_back(dem::scaled(shape, size));
   coupling::World world;
   coupling::add_grains(world, shapes, std::vector<dem::Vec3>(shapes.size(), dem::Vec3::Zero()),

@@ -33,6 +33,12 @@ ContainerScene container(const Values& v) {
 GrainScene grains(const Values& v) {
   GrainScene g{};
   g.generator = v.text("Grains/Generator");
+  g.shape = v.text("Grains/Shape");
+  g.other_shape = v.text("Grains/Other shape");
+  g.other_share = v.number("Grains/Other share");
+  g.dilation = v.number("Grains/Dilation");
+  g.clump_least_radius = v.number("Grains/Clump least radius");
+  g.clump_space_factor = v.number("Grains/Clump space factor");
   g.library = static_cast<int>(v.integer("Grains/Library size"));
   g.elongation = v.number("Grains/Elongation");
   g.flatness = v.number("Grains/Flatness");
@@ -78,6 +84,11 @@ ContactScene contact(const Values& v) {
   c.damping_kind = v.text("Contact/Damping");
   c.torsion = v.number("Contact/Torsional friction");
   c.rolling = v.number("Contact/Rolling resistance");
+  c.round_law = v.text("Contact/Round law");
+  c.restitution = v.number("Contact/Restitution");
+  c.poisson = v.number("Contact/Poisson");
+  c.stiffness = v.number("Contact/Stiffness");
+  c.pairs = v.text("Contact/Pairs");
   c.damping = v.number("Contact/Local damping");
   c.packing_damping = v.number("Contact/Packing damping");
   c.largest_overlap = v.number("Contact/Largest overlap");

@@ -27,8 +27,12 @@ struct ContainerScene {
 };
 
 struct GrainScene {
-  std::string generator;  ///< one of dem::generator_names()
-  int library;            ///< shapes in the library
+  std::string generator;                          ///< one of dem::generator_names()
+  int library;                                    ///< shapes in the library
+  std::string shape, other_shape;                 ///< "polyhedron", "dilated", "clump", "sphere"
+  double other_share;                             ///< of the library
+  double dilation;                                ///< radius over sieve size
+  double clump_least_radius, clump_space_factor;  ///< R_lim over the stone's width, K
   double elongation, flatness, sphericity,
       angularity;                 ///< targets of the library's means; 0 = none
   double spacing, least_face;     ///< voronoi
@@ -58,6 +62,11 @@ struct ContactScene {
   double modulus;            ///< contact modulus of the loading stage [Pa]
   double packing_modulus;    ///< softer, while packing [Pa]
   double tangential_ratio;   ///< k_s/k_n
+  std::string round_law;     ///< "hertz_mindlin" | "sun2015" | "linear"
+  double restitution;        ///< of round contacts
+  double poisson;            ///< of the rock, for their tangential stiffness
+  double stiffness;          ///< of the linear law [N/m]
+  std::string pairs;         ///< what differs for pairs of materials, as text
   std::string damping_kind;  ///< "local" | "adaptive" | "none"
   double torsion;            ///< share of Coulomb's torsional limit; 0 = off
   double rolling;            ///< coefficient of rolling resistance; 0 = off

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "dem/contact/cell_grid.h"
+#include "dem/contact/part_pairs.h"
 
 namespace trackbed::dem {
 namespace {
@@ -66,6 +66,8 @@ void Candidates::rebuild(const Bodies& b, const ShapeTable& shapes, const StepCo
   search_grains(b, c);
   search_rigid(b, shapes, c);
   std::sort(found_.begin(), found_.end());
+  keys_.clear();
+  find_part_pairs(b, shapes, found_, c.period, state_.skin, keys_);
   carry_history(b.size(), pairs);
   drop_far_pairs(b, shapes, c, pairs);
   ++state_.rebuilds;
@@ -75,13 +77,9 @@ void Candidates::make_boxes(const Bodies& b, const ShapeTable& shapes, int threa
   boxes_.resize(b.size());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (int i = 0; i < b.size(); ++i) {
-    const ConvexView s = shapes.view(b.shape[i]);
     Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
-    for (int k = 0; k < s.vertices; ++k) {
-      const Vec3 p = b.R[i] * Vec3(s.x[k], s.y[k], s.z[k]);
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    for (int k = 0; k < shapes.parts(b.shape[i]); ++k)
+      include_part(shapes.part(b.shape[i], k), b.R[i], low, high);
     const Vec3 skin = Vec3::Constant(state_.skin / 2);
     boxes_[i] = {b.x[i] + low - skin, b.x[i] + high + skin};
   }
@@ -123,14 +121,14 @@ void Candidates::carry_history(int bodies, Pairs& pairs) {
   state_.travel_search = state_.travel;
 
   // Both lists are sorted: old place of each new pair, or -1.
-  const int n = static_cast<int>(found_.size());
+  const int n = static_cast<int>(keys_.size());
   std::vector<int> old(n, -1);
   for (int p = 0, o = 0; p < n; ++p) {
-    while (o < pairs.size() && std::pair(pairs.a[o], pairs.b[o]) < found_[p]) ++o;
-    if (o < pairs.size() && std::pair(pairs.a[o], pairs.b[o]) == found_[p]) old[p] = o;
+    while (o < pairs.size() && pairs.key(o) < keys_[p]) ++o;
+    if (o < pairs.size() && pairs.key(o) == keys_[p]) old[p] = o;
   }
   pairs.rearrange(old);
-  for (int p = 0; p < n; ++p) std::tie(pairs.a[p], pairs.b[p]) = found_[p];
+  for (int p = 0; p < n; ++p) pairs.set_key(p, keys_[p]);
   pairs.index_bodies(bodies);
 }
 
@@ -138,7 +136,7 @@ void Candidates::drop_far_pairs(const Bodies& b, const ShapeTable& shapes, const
                                 Pairs& pairs) {
   std::vector<char> far(pairs.size(), 0);
 #pragma omp parallel for schedule(dynamic, 64) num_threads(c.threads) if (c.threads > 1)
-  for (int p = 0; p < pairs.size(); ++p) {
+  for (int p = 0; p < pairs.end(PairKind::polyhedra); ++p) {
     if (pairs.touching[p] || pairs.friction_loss[p] != 0) continue;
     const int i = pairs.a[p], j = pairs.b[p];
     const double travel = state_.travel[i] + state_.travel[j];
@@ -146,8 +144,8 @@ void Candidates::drop_far_pairs(const Bodies& b, const ShapeTable& shapes, const
     if (!(gap > 0)) {
       const Pose pa{b.R[i], b.x[i]};
       const Pose pb{b.R[j], b.x[j] + nearest_image(b.x[i], b.x[j], c.period)};
-      gap =
-          separating_axis(shapes.view(b.shape[i]), pa, shapes.view(b.shape[j]), pb, pairs.axis[p]);
+      gap = separating_axis(shapes.part(b.shape[i], pairs.part_a[p]).core, pa,
+                            shapes.part(b.shape[j], pairs.part_b[p]).core, pb, pairs.axis[p]);
       if (gap > 0) pairs.wake[p] = travel + gap;
     }
     far[p] = gap > state_.skin;

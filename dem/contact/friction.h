@@ -72,8 +72,9 @@ struct FrictionResult {
   double dissipated = 0;  ///< in this step: slip work + what a changing stiffness lost [J]
 };
 
-/// Advances `force` (on a) and `stiffness` (0 = contact is new) to the tangential stiffness k [N/m].
-/// `n` unit normal, either sense; `normal_force` its size [N]; `friction` Coulomb's coefficient.
+/// Advances `force` (on a) and `stiffness` (0 = contact is new) to the tangential stiffness k
+/// [N/m]. `n` unit normal, either sense; `normal_force` its size [N]; `friction` Coulomb's
+/// coefficient.
 inline FrictionResult advance_friction(double friction, double k, const Vec3& n,
                                        double normal_force, const ContactSlip& slip, Vec3& force,
                                        double& stiffness) {

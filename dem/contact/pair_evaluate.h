@@ -7,6 +7,7 @@
 #include "dem/contact/overlap_feature.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/pressure.h"
+#include "dem/contact/release.h"
 
 namespace trackbed::dem {
 
@@ -18,25 +19,13 @@ inline double tilt_stiffness(const OverlapShape& s, double stiffness) {
   return 2.25 * stiffness * (mean + std::sqrt(half * half + C(0, 1) * C(0, 1))) / s.volume;
 }
 
-inline void release(Pairs& pairs, int p) {
-  if (!pairs.touching[p] && pairs.friction_loss[p] == 0) return;
-  pairs.touching[p] = 0;
-  pairs.feature[p] = pairs.faces_a[p] = pairs.faces_b[p] = 0;
-  for (auto* v : {&pairs.friction, &pairs.force, &pairs.couple, &pairs.normal_force})
-    (*v)[p].setZero();
-  // What the tangential spring still held is lost with the contact.
-  pairs.friction_loss[p] = pairs.friction_energy[p];
-  for (auto* v : {&pairs.friction_stiffness, &pairs.energy, &pairs.friction_energy, &pairs.area,
-                  &pairs.depth, &pairs.stiffness, &pairs.tilt_stiffness})
-    (*v)[p] = 0;
-}
-
 template <class Law, bool friction>
 void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                    const StepContext& c, const std::vector<double>& travel, OverlapWorkspace& work,
                    Pairs& pairs, int p) {
   const int i = pairs.a[p], j = pairs.b[p];
-  const ConvexView &va = shapes.view(b.shape[i]), &vb = shapes.view(b.shape[j]);
+  const ConvexView &va = shapes.part(b.shape[i], pairs.part_a[p]).core,
+                   &vb = shapes.part(b.shape[j], pairs.part_b[p]).core;
   const Pose pa{b.R[i], b.x[i]};
   const Pose pb{b.R[j], b.x[j] + nearest_image(b.x[i], b.x[j], c.period)};
 
@@ -107,7 +96,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
 /// The pairs that may touch, in order; of the others, what only a step's evaluation sets.
 inline void find_awake(const std::vector<double>& travel, Pairs& pairs) {
   pairs.awake.clear();
-  for (int p = 0; p < pairs.size(); ++p) {
+  for (int p = 0; p < pairs.end(PairKind::polyhedra); ++p) {
     if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p])
       pairs.friction_loss[p] = 0;
     else

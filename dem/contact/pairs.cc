@@ -35,6 +35,9 @@ void Pairs::keep_resistance() {
 }
 
 void Pairs::index_bodies(int bodies) {
+  kind_first.fill(0);
+  for (const std::uint8_t k : kind) ++kind_first[k + 1];
+  std::partial_sum(kind_first.begin(), kind_first.end(), kind_first.begin());
   first.assign(bodies + 1, 0);
   for (int p = 0; p < size(); ++p) ++first[a[p] + 1], ++first[b[p] + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());

@@ -1,8 +1,11 @@
-// Pairs of bodies that touch or may soon touch: history that lives on from step to step, and the
-// results of the last evaluation. Structure of arrays, sorted by (a, b), a < b.
+// Pairs of convex parts of bodies that touch or may soon touch: history that lives on from step to
+// step, and the results of the last evaluation. Structure of arrays, sorted by kind, so that each
+// kind has a plain loop of its own, then by bodies and parts (PairKey).
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "dem/contact/overlap.h"
@@ -10,8 +13,32 @@
 
 namespace trackbed::dem {
 
+/// What a pair of parts is made of. Roles: a has the first core, b the second; where both may be
+/// the same, a < b.
+enum class PairKind : std::uint8_t {
+  polyhedra,   ///< plain on plain
+  balls,       ///< spheres about their bodies' centres
+  points,      ///< spheres, not both centred: clumps
+  point_core,  ///< sphere on polyhedron, dilated or plain
+  cores        ///< dilated on dilated or plain
+};
+inline constexpr int kPairKinds = 5;
+
+struct PairKey {
+  PairKind kind;
+  int a, b, part_a, part_b;
+  bool operator<(const PairKey& o) const {
+    return std::tie(kind, a, b, part_a, part_b) < std::tie(o.kind, o.a, o.b, o.part_a, o.part_b);
+  }
+  bool operator==(const PairKey& o) const {
+    return std::tie(kind, a, b, part_a, part_b) == std::tie(o.kind, o.a, o.b, o.part_a, o.part_b);
+  }
+};
+
 struct Pairs {
-  std::vector<int> a, b;
+  std::vector<int> a, b;            ///< bodies
+  std::vector<int> part_a, part_b;  ///< of the bodies' shapes
+  std::vector<std::uint8_t> kind;   ///< PairKind
 
   // History. `wake`: the pair is apart until travel[a] + travel[b] (Candidates) passes it [m].
   std::vector<Vec3> axis;                      ///< direction a to b of least separation, any length
@@ -25,10 +52,12 @@ struct Pairs {
   std::vector<std::uint8_t> touching;
   std::vector<Vec3> force;         ///< on a, normal + friction [N]; on b its negative
   std::vector<Vec3> couple;        ///< moment on a about the contact point [N m]; on b its negative
-  std::vector<Vec3> normal_force;  ///< elastic part of `force` [N]
+  std::vector<Vec3> normal_force;  ///< `force` without friction [N]
   std::vector<double> energy;      ///< stored in the normal contact [J]
   std::vector<double> friction_energy;  ///< stored in the tangential spring [J]
   std::vector<double> friction_loss;    ///< dissipated in this step [J]
+  std::vector<double> viscous;          ///< damping force, elastic + viscous = normal [N]; history
+  std::vector<double> viscous_loss;     ///< dissipated by it in this step [J]
   std::vector<double> area;             ///< size of the overlap's vector area [m2]
   std::vector<double> depth;            ///< extent of the overlap along the frame's normal [m]
   std::vector<double> stiffness;        ///< normal [N/m]
@@ -47,12 +76,25 @@ struct Pairs {
   std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
   std::vector<int> awake;                    ///< scratch: the pairs that a step looks at
 
+  std::array<int, kPairKinds + 1> kind_first{};  ///< range of each kind (index_bodies)
+
   int size() const { return static_cast<int>(a.size()); }
+  int begin(PairKind k) const { return kind_first[static_cast<int>(k)]; }
+  int end(PairKind k) const { return kind_first[static_cast<int>(k) + 1]; }
+  /// Of those that are not polyhedra.
+  int round() const { return size() - end(PairKind::polyhedra); }
+  PairKey key(int p) const {
+    return {static_cast<PairKind>(kind[p]), a[p], b[p], part_a[p], part_b[p]};
+  }
+  void set_key(int p, const PairKey& k) {
+    kind[p] = static_cast<std::uint8_t>(k.kind);
+    a[p] = k.a, b[p] = k.b, part_a[p] = k.part_a, part_b[p] = k.part_b;
+  }
   void resize(int pairs);  ///< new entries are zero
   /// New entry p takes over all of the old entry old[p], or zeros where that is -1.
   void rearrange(const std::vector<int>& old);
   void keep_resistance();         ///< from here on with the moments against turning
-  void index_bodies(int bodies);  ///< rebuilds first, incident
+  void index_bodies(int bodies);  ///< rebuilds first, incident, kind_first
 };
 
 /// Calls f(name, array) for each array that a checkpoint must hold so that the next step is
@@ -60,7 +102,7 @@ struct Pairs {
 /// read them before. After reading back: index_bodies.
 template <class P, class F>
 void for_each_pair_array(P& p, F&& f) {
-  f("a", p.a), f("b", p.b);
+  f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("kind", p.kind);
   f("axis", p.axis), f("wake", p.wake), f("feature", p.feature);
   f("faces_a", p.faces_a), f("faces_b", p.faces_b);
   f("friction", p.friction), f("friction_stiffness", p.friction_stiffness);
@@ -69,6 +111,7 @@ void for_each_pair_array(P& p, F&& f) {
   f("force", p.force), f("couple", p.couple), f("normal_force", p.normal_force);
   f("energy", p.energy), f("friction_energy", p.friction_energy);
   f("friction_loss", p.friction_loss);
+  f("viscous", p.viscous), f("viscous_loss", p.viscous_loss);
   f("area", p.area), f("depth", p.depth), f("stiffness", p.stiffness);
   f("tilt_stiffness", p.tilt_stiffness);
   if (!p.resists) return;

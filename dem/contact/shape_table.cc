@@ -53,7 +53,34 @@ void sort_around(std::vector<Corner>& corners) {
 }  // namespace
 
 int ShapeTable::add(const GrainShape& shape) {
-  const Polyhedron& body = shape.body;
+  views_.push_back(add_view(shape.body, shape.radius));
+  if (shape.parts.empty()) {
+    parts_.emplace_back();
+    parts_.back().core = views_.back();
+  }
+  for (const ConvexPart& given : shape.parts) {
+    PartView part;
+    part.radius = given.radius, part.crown = given.crown, part.mean_square = given.mean_square;
+    if (given.core.faces.empty()) {
+      if (given.core.vertices.size() != 1 || !(given.radius > 0))
+        throw InputError("shape: a part without faces is one point with a radius");
+      part.kind = Core::point;
+      part.centre = given.core.vertices[0];
+      part.centred = part.centre == Vec3::Zero();
+    } else {
+      double most = 0;
+      for (const Vec3& v : given.core.vertices) most = std::max(most, v.norm());
+      part.kind = given.radius > 0 ? Core::dilated : Core::plain;
+      part.core = add_view(given.core, most);
+    }
+    parts_.push_back(part);
+  }
+  part_first_.push_back(static_cast<int>(parts_.size()));
+  shapes_.push_back(shape);
+  return size() - 1;
+}
+
+ConvexView ShapeTable::add_view(const Polyhedron& body, double radius) {
   const int n = static_cast<int>(body.vertices.size());
   const int faces = static_cast<int>(body.faces.size());
   if (n < 4 || faces < 4) throw InputError("shape: a polyhedron needs 4 vertices and 4 faces");
@@ -130,7 +157,7 @@ int ShapeTable::add(const GrainShape& shape) {
   view.vertices = n, view.padded = padded;
   view.nx = nx, view.ny = ny, view.nz = nz, view.offset = offset;
   view.faces = faces;
-  view.radius = shape.radius;
+  view.radius = radius;
   view.neighbor_begin = index.data();
   view.neighbor = view.neighbor_begin + n + 1;
   view.left_face = view.neighbor + corners;
@@ -139,10 +166,8 @@ int ShapeTable::add(const GrainShape& shape) {
   view.vertex_faces = arrays->bits.data();
   view.face_words = words;
   view.planes_padded = true;
-  views_.push_back(view);
   arrays_.push_back(std::move(arrays));
-  shapes_.push_back(shape);
-  return size() - 1;
+  return view;
 }
 
 }  // namespace trackbed::dem

@@ -33,12 +33,27 @@ struct ConvexView {
   const double* corners = nullptr;
 };
 
+/// The core of a part: a point (spheres), or a polyhedron with or without a radius around it.
+enum class Core : std::uint8_t { point, dilated, plain };
+
+/// One convex part of a shape as the kernels read it (see ConvexPart).
+struct PartView {
+  ConvexView core;             ///< empty for a point
+  Vec3 centre = Vec3::Zero();  ///< of a point, body frame [m]
+  double radius = 0, crown = 0, mean_square = 0;
+  Core kind = Core::plain;
+  bool centred = false;  ///< a point at the body's origin
+};
+
 class ShapeTable {
  public:
   /// Returns the shape's index. Throws InputError when a face has no area, an edge belongs to one
   /// face only, or there are more than 65535 vertices.
   int add(const GrainShape&);
-  /// Valid as long as this table or a copy of it lives.
+  /// Parts of a shape: one, the body itself, for a plain polyhedron.
+  int parts(int shape) const { return part_first_[shape + 1] - part_first_[shape]; }
+  const PartView& part(int shape, int k) const { return parts_[part_first_[shape] + k]; }
+  /// Of the shape's `body`. Valid as long as this table or a copy of it lives.
   const ConvexView& view(int shape) const { return views_[shape]; }
   int size() const { return static_cast<int>(views_.size()); }
   const GrainShape& shape(int s) const { return shapes_[s]; }
@@ -53,7 +68,11 @@ class ShapeTable {
     std::vector<std::uint64_t> bits;     // vertex_faces
     std::vector<std::uint16_t> indices;  // neighbor_begin, neighbor, left_face, loop_begin, loop
   };
+  ConvexView add_view(const Polyhedron&, double radius);
+
   std::vector<std::shared_ptr<const Arrays>> arrays_;
+  std::vector<PartView> parts_;
+  std::vector<int> part_first_{0};
   std::vector<ConvexView> views_;
   std::vector<GrainShape> shapes_;
 };

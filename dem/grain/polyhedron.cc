@@ -110,6 +110,12 @@ GrainShape scaled(const GrainShape& shape, double factor) {
     throw InputError("grain: a scale must be positive and finite");
   GrainShape result = shape;
   for (Vec3& v : result.body.vertices) v *= factor;
+  for (ConvexPart& part : result.parts) {
+    for (Vec3& v : part.core.vertices) v *= factor;
+    part.radius *= factor;
+    part.crown /= factor;
+    part.mean_square *= factor * factor;
+  }
   result.volume *= factor * factor * factor;
   result.inertia *= factor * factor * factor * factor * factor;
   result.radius *= factor;

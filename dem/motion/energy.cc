@@ -41,4 +41,10 @@ double friction_loss(const Pairs& pairs, int threads) {
   return ordered_sum<double>(pairs.size(), threads, [&](int p) { return pairs.friction_loss[p]; });
 }
 
+double viscous_loss(const Pairs& pairs, int threads) {
+  const int first = pairs.end(PairKind::polyhedra);  // they have none
+  return ordered_sum<double>(pairs.round(), threads,
+                             [&](int p) { return pairs.viscous_loss[first + p]; });
+}
+
 }  // namespace trackbed::dem

@@ -18,7 +18,8 @@ struct Energies {
 struct EnergyFlow {
   double applied = 0, prescribed = 0;      ///< work put in
   double friction = 0, local_damping = 0;  ///< dissipated
-  double total() const { return applied + prescribed - friction - local_damping; }
+  double contact_damping = 0;              ///< dissipated
+  double total() const { return applied + prescribed - friction - local_damping - contact_damping; }
 };
 
 double kinetic_energy(const Bodies&);
@@ -27,5 +28,8 @@ Energies energies(const Bodies&, const Pairs&, const Vec3& gravity);
 
 /// Dissipated by friction in the last evaluation, summed in fixed order [J].
 double friction_loss(const Pairs&, int threads);
+
+/// The same by damping in contacts [J].
+double viscous_loss(const Pairs&, int threads);
 
 }  // namespace trackbed::dem

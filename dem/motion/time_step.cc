@@ -98,23 +98,61 @@ TimeStepLimit limit_of(int body, double omega2, int contacts) {
 
 }  // namespace
 
+namespace {
+
+/// k and tilt stiffness of the stiffest contact to expect of a shape, per unit modulus.
+struct ExpectedStiffness {
+  double normal = 0;  // [m]
+  double tilt = 0;    // [m3]
+};
+
+ExpectedStiffness expected_stiffness(const GrainShape& shape, const ContactExpectation& expect) {
+  ExpectedStiffness k;
+  if (shape.parts.empty())
+    k.normal = kShaoFactor * std::sqrt(expect.area_share * largest_face(shape.body));
+  for (const ConvexPart& part : shape.parts) {
+    if (part.radius == 0) {
+      k.normal =
+          std::max(k.normal, kShaoFactor * std::sqrt(expect.area_share * largest_face(part.core)));
+      continue;
+    }
+    const double overlap = expect.overlap * shape.radius;
+    k.normal = std::max(k.normal, 2 * std::sqrt(part.radius * overlap));
+    if (part.crown > 0)
+      k.tilt = std::max(k.tilt, 4. / 3 * std::sqrt(part.radius * overlap) * overlap / part.crown);
+  }
+  return k;
+}
+
+}  // namespace
+
 TimeStepLimit expected_limit(const Bodies& b, const ShapeTable& shapes, const PairMaterials& m,
                              const ContactExpectation& expect) {
-  std::vector<double> face(shapes.size());
-  for (int s = 0; s < shapes.size(); ++s) face[s] = largest_face(shapes.shape(s).body);
+  std::vector<ExpectedStiffness> stiffness(shapes.size());
+  for (int s = 0; s < shapes.size(); ++s)
+    stiffness[s] = expected_stiffness(shapes.shape(s), expect);
   TimeStepLimit worst = limit_of(-1, 0, 0);
   for (int i = 0; i < b.grains; ++i) {
     if (b.freedom[i] == kFixed) continue;
-    double stiffest = 0;  // E (1 + 2 kappa)/3
+    const GrainShape& shape = shapes.shape(b.shape[i]);
+    const ExpectedStiffness& expected = stiffness[b.shape[i]];
+    const bool round = !shape.parts.empty();
+    double stiffest = 0;  // k (1 + 2 kappa)/3
+    double tilt = 0;
     for (int j = 0; j < m.materials(); ++j) {
       const PairMaterial& pair = m(b.material[i], j);
-      const double ratio = pair.friction > 0 ? pair.tangential_ratio : 0;
-      if (pair.modulus > 0) stiffest = std::max(stiffest, pair.modulus * (1 + 2 * ratio) / 3);
+      double ratio =
+          round ? std::max(pair.round_ratio, pair.tangential_ratio) : pair.tangential_ratio;
+      if (!(pair.friction > 0)) ratio = 0;
+      if (!(pair.modulus > 0)) continue;
+      const double k =
+          round && pair.stiffness > 0 ? pair.stiffness : pair.modulus * expected.normal;
+      stiffest = std::max(stiffest, k * (1 + 2 * ratio) / 3);
+      tilt = std::max(tilt, pair.modulus * expected.tilt);
     }
-    const double k = kShaoFactor * stiffest * std::sqrt(expect.area_share * face[b.shape[i]]);
-    const double r = shapes.shape(b.shape[i]).radius;
+    const double r = shape.radius, least = b.inertia[i].minCoeff();
     const double omega2 =
-        2 * expect.contacts * k * (1 / b.mass[i] + r * r / (2 * b.inertia[i].minCoeff()));
+        2 * expect.contacts * stiffest * (1 / b.mass[i] + r * r / (2 * least)) + 2 * tilt / least;
     if (omega2 > worst.omega * worst.omega)
       worst = limit_of(i, omega2, static_cast<int>(std::ceil(expect.contacts)));
   }

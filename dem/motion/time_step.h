@@ -25,12 +25,15 @@ struct TimeStepLimit {
 struct ContactExpectation {
   double area_share = 0.1;  ///< largest contact area / largest face of the grain
   double contacts = 6;      ///< as stiff as that, at one grain
+  double overlap = 0.005;   ///< round contacts: overlap / bounding radius of the grain
 };
 
 /// A priori, for one grain on its neighbours:
 ///   k = kappa_n E sqrt(share A_face), omega^2 = 2 N k (1 + 2 kappa)/3 (1/m + r^2/(2 I_min)),
 /// E the largest modulus of the grain's material against any other, A_face its largest face, r its
 /// bounding radius, kappa the tangential ratio when there is friction. Held bodies do not count.
+/// Spheres, clumps and dilated grains: k = 2 E sqrt(R overlap r), R the part's radius (Hertz), or
+/// the linear law's k; one crowned face more that rolls, with F/crown.
 TimeStepLimit expected_limit(const Bodies&, const ShapeTable&, const PairMaterials&,
                              const ContactExpectation&);
 

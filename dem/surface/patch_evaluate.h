@@ -51,7 +51,7 @@ inline void release(PatchContacts& k, int i) {
   k.friction_loss[i] = k.friction_energy[i];
   for (auto* v : {&k.friction, &k.force, &k.torque, &k.normal_force}) (*v)[i].setZero();
   for (auto* v : {&k.friction_stiffness, &k.energy, &k.friction_energy, &k.area, &k.depth,
-                  &k.stiffness, &k.tilt_stiffness})
+                  &k.stiffness, &k.tilt_stiffness, &k.viscous})
     (*v)[i] = 0;
 }
 
@@ -129,7 +129,7 @@ bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
                             const std::vector<double>& travel, const SurfacePatch& patch,
                             OverlapWorkspace& work, PatchContacts& k, int i) {
   const int g = k.grain[i];
-  const ConvexView grain = shapes.view(b.shape[g]);
+  const ConvexView grain = shapes.part(b.shape[g], k.part[i]).core;
   const Pose pose{b.R[g], b.x[g]};
   static thread_local ClippedCells cells;
   static thread_local std::vector<double> share;  // of the surface's area, per nodal force
@@ -221,15 +221,15 @@ void evaluate_patch(const Bodies& b, const ShapeTable& shapes, const PairMateria
                     const StepContext& c, const std::vector<double>& travel,
                     const SurfacePatch& patch, PatchContacts& k) {
   if (static_cast<int>(k.workspaces.size()) < c.threads) k.workspaces.resize(c.threads);
-  int through = k.size();  // first contact of a grain that the shell cannot hold
+  int through = k.round;  // first contact of a grain that the shell cannot hold
 #pragma omp parallel for schedule(dynamic, 4) num_threads(c.threads) \
     reduction(min                                                    \
               : through) if (c.threads > 1)
-  for (int i = 0; i < k.size(); ++i)
+  for (int i = 0; i < k.round; ++i)
     if (!evaluate_patch_contact<Law, friction>(b, shapes, materials, c, travel, patch,
                                                k.workspaces[omp_get_thread_num()], k, i))
       through = std::min(through, i);
-  if (through < k.size())
+  if (through < k.round)
     throw RunError("grain " + std::to_string(k.grain[through]) + " goes deeper into surface '" +
                    patch.name + "' than its contact shell of " +
                    std::to_string(1e3 * patch.shell_depth) +

@@ -1,4 +1,5 @@
-// Contact of grains with a deforming surface: one contact per grain and patch.
+// Contact of grains with a deforming surface: one contact per convex part of a grain and patch.
+// Plain polyhedra here; spheres and dilated polyhedra in surface/round_patch.h.
 //
 // The grain is clipped against each shell cell (tetrahedron) it reaches with the same kernel as
 // grain on grain; the moments are summed; the law is evaluated once; each surface node gets
@@ -21,8 +22,11 @@
 namespace trackbed::dem {
 
 struct PatchContacts {
-  // Candidates, from the last search: contact k is grain[k] with cells [first[k], first[k+1]).
-  std::vector<int> grain, first;
+  // Candidates, from the last search: contact k is part[k] of grain[k] with cells [first[k],
+  // first[k+1]). Plain polyhedra first, from `round` on spheres and dilated polyhedra; these keep
+  // only the first cell of each triangle.
+  std::vector<int> grain, part, first;
+  int round = 0;
   std::vector<int> cell;     ///< 3 triangle + (0, 1, 2)
   std::vector<Vec3> shift;   ///< periodic image of the cell [m]
   std::vector<Vec3> axis;    ///< separating axis, grain to cell, as in Pairs
@@ -38,6 +42,7 @@ struct PatchContacts {
   std::vector<Vec3> normal_force, point;
   std::vector<double> energy, friction_energy, friction_loss, area, depth, stiffness;
   std::vector<double> tilt_stiffness;  ///< as in Pairs [N m]
+  std::vector<double> viscous, viscous_loss;
 
   // Forces on nodes, per contact, of the last evaluation.
   std::vector<std::vector<std::pair<int, Vec3>>> nodal;
@@ -53,12 +58,13 @@ void for_each_cell_array(PatchContacts& p, F&& f) {
 }
 template <class F>
 void for_each_contact_array(PatchContacts& p, F&& f) {
-  f("grain", p.grain), f("friction", p.friction), f("arm", p.arm);
+  f("grain", p.grain), f("part", p.part), f("friction", p.friction), f("arm", p.arm);
   f("friction_stiffness", p.friction_stiffness), f("touching", p.touching);
   f("force", p.force), f("torque", p.torque), f("normal_force", p.normal_force);
   f("point", p.point), f("energy", p.energy), f("friction_energy", p.friction_energy);
   f("friction_loss", p.friction_loss), f("area", p.area), f("depth", p.depth);
   f("stiffness", p.stiffness), f("tilt_stiffness", p.tilt_stiffness);
+  f("viscous", p.viscous), f("viscous_loss", p.viscous_loss);
 }
 /// As for Pairs: all that a checkpoint must hold.
 template <class F>
@@ -72,6 +78,9 @@ void for_each_array(PatchContacts& p, F&& f) {
 /// is kept, touching ones always stay.
 void search_patch(const Bodies&, const ShapeTable&, const SurfacePatch&, const StepContext&,
                   double reach, PatchContacts&);
+
+/// The contacts of spheres and dilated polyhedra start at `round`; call it after reading back.
+void find_round(const Bodies&, const ShapeTable&, PatchContacts&);
 
 /// After bodies were put in another order: grain i is now grain now[i], or gone where that is -1.
 void renumber_grains(PatchContacts&, const std::vector<int>& now);

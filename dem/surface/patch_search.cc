@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 
+#include "dem/contact/part_pairs.h"
 #include "dem/surface/patch_forces.h"
 #include "dem/surface/shell_cell.h"
 
@@ -19,10 +22,9 @@ struct Box {
   }
 };
 
-Box grain_box(const Bodies& b, const ShapeTable& shapes, int i, double reach) {
-  const ConvexView v = shapes.view(b.shape[i]);
+Box part_box(const Bodies& b, const ShapeTable& shapes, int i, int part, double reach) {
   Box box;
-  for (int k = 0; k < v.vertices; ++k) box.include(b.R[i] * Vec3(v.x[k], v.y[k], v.z[k]));
+  include_part(shapes.part(b.shape[i], part), b.R[i], box.low, box.high);
   box.low += b.x[i] - Vec3::Constant(reach);
   box.high += b.x[i] + Vec3::Constant(reach);
   return box;
@@ -128,16 +130,22 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
   contacts = PatchContacts{};
   contacts.node_travel = contacts.searched_at = old.node_travel;
   contacts.workspaces = std::move(old.workspaces);
-  std::vector<int> old_contact(b.grains, -1);
-  for (int k = 0; k < old.size(); ++k) old_contact[old.grain[k]] = k;
+  std::map<std::pair<int, int>, int> old_contact;
+  for (int k = 0; k < old.size(); ++k) old_contact[{old.grain[k], old.part[k]}] = k;
 
   std::vector<TriangleFinder::Hit> hits;
   std::vector<Vec3> images;
-  for (int i = 0; i < b.grains; ++i) {
-    finder.find(grain_box(b, shapes, i, reach), c.period, hits, images);
-    if (hits.empty()) continue;
-    const int before = old_contact[i];
+  const auto search = [&](int i, int part, bool round) {
+    finder.find(part_box(b, shapes, i, part, reach), c.period, hits, images);
+    if (round)  // the triangle is all they need
+      hits.erase(std::remove_if(hits.begin(), hits.end(),
+                                [](const auto& hit) { return hit.cell % 3 != 0; }),
+                 hits.end());
+    if (hits.empty()) return;
+    const auto found = old_contact.find({i, part});
+    const int before = found == old_contact.end() ? -1 : found->second;
     contacts.grain.push_back(i);
+    contacts.part.push_back(part);
     contacts.first.push_back(static_cast<int>(contacts.cell.size()));
     for (const auto& hit : hits) {
       const Vec3& shift = images[hit.image];
@@ -145,7 +153,7 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
       contacts.cell.push_back(hit.cell);
       contacts.shift.push_back(shift);
       contacts.axis.push_back(entry < 0 ? Vec3(Vec3::Zero()) : old.axis[entry]);
-      contacts.wake.push_back(entry < 0 ? 0 : old.wake[entry]);
+      contacts.wake.push_back(entry < 0 || round ? 0 : old.wake[entry]);
     }
     const auto carry = [&](auto& to, const auto& from, auto fresh) {
       to.push_back(before >= 0 ? from[before] : fresh);
@@ -166,6 +174,14 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
     carry(contacts.depth, old.depth, 0.0);
     carry(contacts.stiffness, old.stiffness, 0.0);
     carry(contacts.tilt_stiffness, old.tilt_stiffness, 0.0);
+    carry(contacts.viscous, old.viscous, 0.0);
+    carry(contacts.viscous_loss, old.viscous_loss, 0.0);
+  };
+  for (const bool round : {false, true}) {
+    for (int i = 0; i < b.grains; ++i)
+      for (int part = 0; part < shapes.parts(b.shape[i]); ++part)
+        if ((shapes.part(b.shape[i], part).kind != Core::plain) == round) search(i, part, round);
+    if (!round) contacts.round = contacts.size();
   }
   contacts.first.push_back(static_cast<int>(contacts.cell.size()));
   contacts.nodal.assign(contacts.size(), {});
@@ -175,8 +191,13 @@ void renumber_grains(PatchContacts& contacts, const std::vector<int>& now) {
   std::vector<int> kept;  // contacts in the order of their grains' new numbers
   for (int k = 0; k < contacts.size(); ++k)
     if (now[contacts.grain[k]] >= 0) kept.push_back(k);
-  std::sort(kept.begin(), kept.end(),
-            [&](int i, int j) { return now[contacts.grain[i]] < now[contacts.grain[j]]; });
+  const auto place = [&](int k) {
+    return std::tuple(k >= contacts.round, now[contacts.grain[k]], contacts.part[k]);
+  };
+  std::sort(kept.begin(), kept.end(), [&](int i, int j) { return place(i) < place(j); });
+  const int round = contacts.round;
+  contacts.round = static_cast<int>(
+      std::count_if(kept.begin(), kept.end(), [round](int k) { return k < round; }));
   std::vector<int> entries, first;
   for (const int k : kept) {
     first.push_back(static_cast<int>(entries.size()));
@@ -188,6 +209,13 @@ void renumber_grains(PatchContacts& contacts, const std::vector<int>& now) {
   gather(contacts.nodal, kept);
   contacts.first = first;
   for (int& g : contacts.grain) g = now[g];
+}
+
+void find_round(const Bodies& b, const ShapeTable& shapes, PatchContacts& k) {
+  k.round = 0;
+  while (k.round < k.size() &&
+         shapes.part(b.shape[k.grain[k.round]], k.part[k.round]).kind == Core::plain)
+    ++k.round;
 }
 
 int count_contacts(const PatchContacts& contacts) {

@@ -153,6 +153,20 @@ class Runs(SceneTest):
             **SHORT, "Container/Periodic along track": "true", "Container/Width": "0.18",
             "Container/Ballast depth": "0.06"}))
 
+    def test_every_shape(self):
+        shapes = {"sphere": {"Shape": "sphere"},
+                  "dilated": {"Shape": "dilated", "Dilation": "0.1"},
+                  "mixed": {"Other shape": "clump", "Other share": "0.5"}}
+        for name, keys in shapes.items():
+            with self.subTest(name):
+                change = {**SHORT, **{f"Grains/{key}": value for key, value in keys.items()}}
+                run = self.run_scene(name, change=change)
+                self.assert_sound(run)
+                damped = float(rows(run / "energy.csv")[-1]["dissipated_contact_damping_J"])
+                self.assertGreater(damped, 0)
+                forces = [float(row["largest_force_N"]) for row in rows(run / "grains.csv")]
+                self.assertGreater(sum(force > 0 for force in forces), len(forces) / 2)
+
     def test_every_subgrade_model(self):
         parameters = json.loads(self.trackbed("parameters", "--format", "json").stdout)
         # In deal.II's JSON a parameter has a "value"; what has none is a section.
@@ -320,10 +334,10 @@ class SameAnswer(SceneTest):
         self.assert_same(run, self.run_scene("fresh", change={"Packing/Reuse": "false"}),
                          ["cycles.csv", "energy.csv", "compaction.csv"])
 
-    def stop_after(self, stage, output, resume):
+    def stop_after(self, stage, output, resume, more=()):
         """Ctrl-C in the stage that follows `stage`."""
         command = [PROGRAM, "run", "tiny.prm", "--output", output, "--set", "Packing/Reuse=false",
-                   "--set", "Packing/Folder=packings"] + (["--resume"] if resume else [])
+                   "--set", "Packing/Folder=packings", *more] + (["--resume"] if resume else [])
         with subprocess.Popen(command, cwd=self.folder, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE) as program:
             seen = ""
@@ -345,6 +359,16 @@ class SameAnswer(SceneTest):
         parts = self.run_scene("parts", "--resume", change=change)
         self.assert_same(whole, parts)
         self.assertEqual((whole / "snapshots.xdmf").read_bytes(), (parts / "snapshots.xdmf").read_bytes())
+
+    def test_resume_of_two_shapes(self):
+        change = {"Packing/Reuse": "false", "Grains/Other shape": "clump", "Grains/Other share": "0.5",
+                  "Packing/Settle time": "0.2"}
+        whole = self.run_scene("whole", change=change)
+        more = [word for path, value in change.items() for word in ("--set", f"{path}={value}")]
+        self.stop_after("deposit", "parts", False, more)
+        self.stop_after("seating", "parts", True, more)
+        parts = self.run_scene("parts", "--resume", change=change)
+        self.assert_same(whole, parts)
 
 
 class Commands(SceneTest):

@@ -4,8 +4,10 @@
 #include <functional>
 
 #include "dem/contact/candidates.h"
-#include "dem/contact/pair_forces.h"
 #include "dem/contact/resistance.h"
+#include "dem/contact/restitution.h"
+#include "dem/contact/round_forces.h"
+#include "dem/grain/parts.h"
 #include "dem/motion/adaptive_damping.h"
 #include "dem/motion/energy.h"
 #include "dem/motion/time_step.h"
@@ -20,6 +22,7 @@ struct Scene {
   Pairs pairs;
   Candidates candidates;
   PairForces forces;
+  RoundForces round;
   ResistanceSettings resistance;
   bool adaptive = false;  ///< Shao's damping
   AdaptiveDamping adaptive_damping;
@@ -35,14 +38,19 @@ struct Scene {
     m.modulus = modulus, m.friction = friction, m.tangential_ratio = 0.25;
     materials.set(0, 0, m);
     forces = make_pair_forces(law, friction > 0);
+    round = make_round_forces("hertz_mindlin", friction > 0);
   }
 
-  void evaluate(double dt) {
+  void evaluate_pairs(double dt) {
     StepContext c = context;
     c.dt = dt;
     forces.evaluate(bodies, shapes, materials, c, candidates.travel(), pairs);
+    round.evaluate(bodies, shapes, materials, c, candidates.travel(), pairs);
     if (resistance.any()) add_resistance(resistance, bodies, materials, c, pairs);
-    sum_forces(pairs, c, bodies);
+  }
+  void evaluate(double dt) {
+    evaluate_pairs(dt);
+    sum_forces(pairs, context, bodies);
   }
   void prepare() {
     candidates.rebuild(bodies, shapes, context, pairs);
@@ -61,6 +69,7 @@ struct Scene {
     flow.applied += work.applied, flow.prescribed += work.prescribed;
     flow.local_damping += work.local_damping;
     if (forces.friction) flow.friction += friction_loss(pairs, context.threads);
+    flow.contact_damping += viscous_loss(pairs, context.threads);
   }
   void run(double until) {
     const long steps = std::lround((until - time) / context.dt);
@@ -76,6 +85,11 @@ struct Scene {
     const GrainShape s = make_grain_shape(make_box(edges));
     const int shape = shapes.add(s);
     return add_grain(bodies, shapes, shape, 0, rho, x + q * s.origin, q * s.turn, freedom);
+  }
+  /// A grain of any shape, in that shape's principal frame.
+  int add(const GrainShape& s, double rho, const Vec3& x, const Quat& q = Quat::Identity(),
+          std::uint8_t freedom = kFree) {
+    return add_grain(bodies, shapes, shapes.add(s), 0, rho, x, q, freedom);
   }
   int add_floor(double half_width, double depth, const Quat& q = Quat::Identity()) {
     return add_rigid_body(bodies, shapes, make_box({2 * half_width, 2 * half_width, depth}), 0, 1,

@@ -7,6 +7,9 @@
 
 #include "base/error.h"
 
+#include "dem/grain/dilated_shape.h"
+#include "dem/grain/parts.h"
+
 namespace trackbed::apps {
 
 namespace {
@@ -58,9 +61,56 @@ dem::LibraryParameters library_parameters(const Scene& s) {
   return p;
 }
 
+namespace {
+
+std::vector<dem::GrainShape> shapes_of(const Scene& s, const std::string& shape,
+                                       const dem::LibraryParameters& p,
+                                       const std::function<void(double)>& progress) {
+  const GrainScene& g = s.grains;
+  if (shape == "sphere") return std::vector<dem::GrainShape>(p.count, dem::sphere_shape(0.5));
+  std::vector<dem::GrainShape> shapes;
+  if (shape == "clump") {
+    for (const dem::ClumpShape& c :
+         dem::make_clump_library(p, g.clump_least_radius, g.clump_space_factor, progress))
+      shapes.push_back(dem::as_grain(c));
+    return shapes;
+  }
+  shapes = dem::make_library(p, progress);
+  if (shape == "dilated")
+    for (dem::GrainShape& grain : shapes)
+      grain = dem::as_grain(dem::dilate_within(grain, g.dilation));
+  return shapes;
+}
+
+}  // namespace
+
+bool has_shape(const Scene& s, const std::string& shape) {
+  const GrainScene& g = s.grains;
+  return (g.other_share < 1 && g.shape == shape) || (g.other_share > 0 && g.other_shape == shape);
+}
+
+std::vector<dem::GrainShape> make_grain_library(const Scene& s, dem::LibraryParameters p,
+                                                const std::function<void(double)>& progress) {
+  const int other = static_cast<int>(std::round(s.grains.other_share * p.count));
+  const int first = p.count - other;
+  std::vector<dem::GrainShape> shapes;
+  if (first > 0) {
+    p.needles = p.needles * first / p.count, p.flakes = p.flakes * first / p.count;
+    p.count = first;
+    shapes = shapes_of(s, s.grains.shape, p, progress);
+  }
+  if (other > 0) {
+    p.count = other;
+    p.needles = p.flakes = 0;
+    for (dem::GrainShape& g : shapes_of(s, s.grains.other_shape, p, progress))
+      shapes.push_back(std::move(g));
+  }
+  return shapes;
+}
+
 std::vector<dem::GrainShape> make_grain_library(const Scene& s,
                                                 const std::function<void(double)>& progress) {
-  return dem::make_library(library_parameters(s), progress);
+  return make_grain_library(s, library_parameters(s), progress);
 }
 
 dem::SieveCurve gradation_curve(const Scene& s) {

@@ -14,9 +14,17 @@ namespace trackbed::apps {
 /// What the scene asks of its library of shapes.
 dem::LibraryParameters library_parameters(const Scene&);
 
-/// Makes and sizes the library; `progress` gets the share done.
+/// Makes and sizes the library, of one or two kinds of shapes (Grains/Shape, Other shape);
+/// `progress` gets the share done.
 std::vector<dem::GrainShape> make_grain_library(const Scene&,
                                                 const std::function<void(double)>& progress);
+
+/// The same with these parameters instead of the scene's (a smaller library).
+std::vector<dem::GrainShape> make_grain_library(const Scene&, dem::LibraryParameters,
+                                                const std::function<void(double)>& progress);
+
+/// Whether the scene has grains of this shape.
+bool has_shape(const Scene&, const std::string& shape);
 
 /// The scene's gradation curve.
 dem::SieveCurve gradation_curve(const Scene&);

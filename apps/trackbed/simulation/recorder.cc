@@ -21,6 +21,7 @@ const std::vector<std::string> kEnergy{"time_s",
                                        "work_J",
                                        "dissipated_friction_J",
                                        "dissipated_local_damping_J",
+                                       "dissipated_contact_damping_J",
                                        "dissipated_structure_damping_J",
                                        "dissipated_structure_integration_J",
                                        "transfer_error_J",
@@ -80,8 +81,9 @@ void Recorder::energy(Run& run, const Stage& stage) {
   const coupling::EnergyFlows f = coupling::flows(run.world);
   const double open = coupling::closure(run.world.start, now, f);
   energy_.row({run.world.time, now.kinetic, now.gravity, now.contact, now.structure,
-               f.work + f.prescribed, f.friction, f.local_damping, f.structure_damping,
-               f.structure_numerical, f.transfer_error, open, f.structure_plastic});
+               f.work + f.prescribed, f.friction, f.local_damping, f.contact_damping,
+               f.structure_damping, f.structure_numerical, f.transfer_error, open,
+               f.structure_plastic});
   run.stage.work_in += std::max(0.0, f.work - run.stage.last_work);
   run.stage.last_work = f.work;
   run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));

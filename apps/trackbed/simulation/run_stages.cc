@@ -8,6 +8,7 @@
 #include "apps/trackbed/signals.h"
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/bearing.h"
+#include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/subgrade_bearing.h"
 #include "base/error.h"
@@ -83,12 +84,18 @@ void choose_step(Run& run, const Stage& stage) {
 }
 
 void choose_laws(Run& run, const Stage& stage) {
+  coupling::World& w = run.world;
   const ContactScene& c = run.scene.contact;
-  run.world.materials = make_materials(run.scene, stage.modulus, stage.friction);
-  run.world.pair_forces = dem::make_pair_forces(c.law, true);
-  run.world.patch_forces = dem::make_patch_forces(c.law, true);
-  run.world.resistance = {c.torsion, c.rolling};
-  run.world.adaptive = c.damping_kind == "adaptive";
+  w.materials = make_materials(run.scene, stage.modulus, stage.friction);
+  w.pair_forces = dem::make_pair_forces(c.law, true);
+  w.patch_forces = dem::make_patch_forces(c.law, true);
+  if (has_shape(run.scene, "sphere") || has_shape(run.scene, "clump") ||
+      has_shape(run.scene, "dilated")) {
+    w.round_forces = dem::make_round_forces(c.round_law, true);
+    w.round_patch_forces = dem::make_round_patch_forces(c.round_law, true);
+  }
+  w.resistance = {c.torsion, c.rolling};
+  w.adaptive = c.damping_kind == "adaptive";
 }
 
 void enter(Run& run, const Stage& stage) {

@@ -8,7 +8,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr int kFormat = 2;  // raised when the arrays change
+constexpr int kFormat = 4;  // raised when the arrays change
 
 template <class A>
 void visit(A& a, const std::string& name, bool& flag) {

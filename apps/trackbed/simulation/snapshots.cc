@@ -8,6 +8,7 @@
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/files.h"
 #include "base/error.h"
+#include "dem/grain/parts.h"
 #include "fem/elastic_body.h"
 
 namespace trackbed::apps {
@@ -110,7 +111,7 @@ class File {
 void append_body(const coupling::World& w, int body, std::vector<Vec3>& points,
                  std::vector<int>& triangles) {
   const int base = static_cast<int>(points.size());
-  const dem::Polyhedron& p = w.shapes.shape(w.bodies.shape[body]).body;
+  const dem::Polyhedron p = dem::drawing(w.shapes.shape(w.bodies.shape[body]));
   for (const Vec3& v : p.vertices) points.push_back(w.bodies.x[body] + w.bodies.R[body] * v);
   for (const auto& face : p.faces)
     for (std::size_t k = 2; k < face.size(); ++k)

@@ -53,7 +53,7 @@ struct Run {
   coupling::World world;
   Actors actors;
   StageState stage;
-  std::vector<dem::GrainShape> library;  ///< made when first needed
+  std::vector<dem::GrainShape> library;          ///< made when first needed
   std::function<void(double)> library_progress;  ///< is told the share of it that is done
 };
 

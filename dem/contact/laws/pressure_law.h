@@ -12,6 +12,10 @@ struct PairMaterial {
   double modulus = 0;           ///< E of Shao 2017 Eq. 17 [Pa]; two bodies: 2 E1 E2/(E1+E2)
   double friction = 0;          ///< Coulomb coefficient
   double tangential_ratio = 0;  ///< k_s/k_n (Shao 2017: 0.25)
+  // Of the ball laws only (ball_law.h), which take `modulus` as the contact's E*.
+  double damping = 0;             ///< alpha of the law's damping [-] (restitution.h); 0 = none
+  double stiffness = 0;           ///< k of the linear law [N/m]
+  double round_ratio = 14. / 17;  ///< k_t/k_n, Mindlin's 2(1-nu)/(2-nu) at nu = 0.3
 };
 
 /// The overlap as a law reads it, frame axes, centroid relative to the frame's origin.

@@ -1,0 +1,28 @@
+// Linear spring and dashpot (Cundall and Strack, Geotechnique 29 (1979) 47):
+//
+//   F_el = k delta,   U = k delta^2/2,   c = alpha sqrt(m k),   k_t = kappa k
+//
+// k = PairMaterial::stiffness [N/m], the same for every pair of the materials; kappa its
+// round_ratio; alpha its damping, from restitution.h so that e is exact with a force that
+// never pulls.
+#pragma once
+#include <cmath>
+
+#include "dem/contact/laws/ball_law.h"
+
+namespace trackbed::dem {
+
+struct LinearLaw {
+  static constexpr const char* name = "linear";
+  BallResponse operator()(const BallContact& b, const PairMaterial& m) const {
+    BallResponse r;
+    r.elastic = m.stiffness * b.overlap;
+    r.energy = r.elastic * b.overlap / 2;
+    r.stiffness = m.stiffness;
+    r.tangential = m.round_ratio * m.stiffness;
+    r.force = damped(r.elastic, m.damping * std::sqrt(m.stiffness * b.mass), b);
+    return r;
+  }
+};
+
+}  // namespace trackbed::dem

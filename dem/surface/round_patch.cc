@@ -1,0 +1,179 @@
+#include "dem/surface/round_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "dem/contact/deepest_balls.h"
+#include "dem/contact/friction.h"
+#include "dem/contact/laws/hertz_mindlin.h"
+#include "dem/contact/laws/linear.h"
+#include "dem/contact/laws/sun2015.h"
+#include "dem/surface/patch_evaluate.h"
+#include "dem/surface/shell_cell.h"
+
+namespace trackbed::dem {
+namespace {
+
+struct SurfaceBalls {
+  double overlap = -HUGE_VAL;
+  double reach = 0;  // r at the deepest point
+  Vec3 n, y;         // into the surface; on the surface, relative to the grain's centre
+  int triangle = -1;
+  double weight[3];
+};
+
+// Corners relative to the grain's centre.
+struct Corners {
+  Vec3 p[3];
+  Corners(const SurfacePatch& patch, int triangle, const Vec3& offset) {
+    for (int j = 0; j < 3; ++j) p[j] = patch.node[patch.triangle[triangle][j]] + offset;
+  }
+  Vec3 normal() const { return (p[1] - p[0]).cross(p[2] - p[0]).normalized(); }
+};
+
+void try_point(const Vec3& centre, double r, const Corners& t, int triangle, SurfaceBalls& best) {
+  double weight[3];
+  const Vec3 y = closest_on_triangle(centre, t.p[0], t.p[1], t.p[2], weight);
+  const Vec3 normal = t.normal(), up = centre - y;
+  const double distance = up.norm(), height = normal.dot(up);
+  // Behind the surface only what lies straight below it counts, not what lies past a border.
+  const bool below = height < 0;
+  if (below && height > -0.9 * distance) return;
+  const double overlap = below ? r + distance : r - distance;
+  // Below, the nearest triangle is the one of least overlap.
+  const bool better = best.triangle < 0 ||
+                      (below && best.overlap > r ? overlap < best.overlap : overlap > best.overlap);
+  if (!better) return;
+  const bool face = weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+  best.overlap = overlap;
+  best.reach = r;
+  best.n = face || !(distance > 0) ? Vec3(-normal) : Vec3((below ? up : -up) / distance);
+  best.y = y;
+  best.triangle = triangle;
+  std::copy(weight, weight + 3, best.weight);
+}
+
+void try_core(const PartView& part, const Mat3& R, const SurfacePatch& patch, int cell,
+              const Vec3& offset, const Corners& t, const Vec3& start, SurfaceBalls& best) {
+  ShellCell solid;
+  make_shell_cell(patch, cell, offset, solid);
+  PartView flat;
+  flat.core = solid.view;
+  Vec3 axis = -t.normal();
+  const DeepestBalls d =
+      deepest_balls(part, R, flat, {Mat3::Identity(), solid.origin}, start, axis);
+  if (d.overlap <= best.overlap) return;
+  best.overlap = d.overlap;
+  best.reach = d.ra;
+  best.n = d.n;
+  best.y = closest_on_triangle(d.y, t.p[0], t.p[1], t.p[2], best.weight);
+  best.triangle = cell / 3;
+}
+
+/// False: deeper in the surface than its shell reaches, or with its core.
+template <class Law, bool friction>
+bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
+                      const StepContext& c, const std::vector<double>& travel,
+                      const SurfacePatch& patch, PatchContacts& k, int i) {
+  const int g = k.grain[i], first = k.first[i];
+  const PartView& part = shapes.part(b.shape[g], k.part[i]);
+  k.viscous_loss[i] = 0;
+  if (travel[g] + k.node_travel < k.wake[first]) {
+    k.friction_loss[i] = 0;
+    return true;
+  }
+  SurfaceBalls best;
+  const bool point = part.kind == Core::point;
+  const Vec3 centre = point ? Vec3(b.R[g] * part.centre) : Vec3(Vec3::Zero());
+  for (int e = first; e < k.first[i + 1]; ++e) {
+    const Vec3 offset = k.shift[e] - b.x[g];
+    const int triangle = k.cell[e] / 3;
+    const Corners t(patch, triangle, offset);
+    if (point)
+      try_point(centre, part.radius, t, triangle, best);
+    else
+      try_core(part, b.R[g], patch, k.cell[e], offset, t, k.arm[i], best);
+  }
+  std::vector<std::pair<int, Vec3>>& nodal = k.nodal[i];
+  nodal.clear();
+  if (best.triangle < 0 || !(best.overlap > 0)) {
+    if (best.triangle >= 0) k.wake[first] = travel[g] + k.node_travel - best.overlap;
+    release(k, i);
+    return true;
+  }
+  if (best.overlap > (point ? best.reach + patch.shell_depth : best.reach)) return false;
+
+  const auto& nodes = patch.triangle[best.triangle];
+  Vec3 velocity = Vec3::Zero();
+  for (int j = 0; j < 3; ++j) velocity += best.weight[j] * patch.velocity[nodes[j]];
+  const Vec3 zero = Vec3::Zero(), arm = best.y, old_arm = k.touching[i] ? k.arm[i] : arm;
+  ContactSlip slip{zero, zero};
+  if (c.dt > 0)
+    slip = contact_slip(c.dt, b.v[g], b.turn[g], old_arm, arm, velocity, zero, zero, zero);
+  const double way = best.n.dot(slip.displacement);
+  const PairMaterial& material = materials(b.material[g], patch.material);
+  const BallContact contact{best.overlap, part.radius, c.dt > 0 ? way / c.dt : 0, b.mass[g], c.dt};
+  const BallResponse response = Law()(contact, material);
+  const Vec3 normal = -response.force * best.n;
+  const double viscous = response.force - response.elastic;
+  k.viscous_loss[i] = (k.viscous[i] + viscous) / 2 * way;
+  k.viscous[i] = viscous;
+
+  Vec3 force = normal;
+  if constexpr (friction) {
+    const FrictionResult result =
+        advance_friction(material.friction, response.tangential, best.n, response.force, slip,
+                         k.friction[i], k.friction_stiffness[i]);
+    force += k.friction[i];
+    k.friction_energy[i] = result.stored;
+    k.friction_loss[i] = result.dissipated;
+  }
+  for (int j = 0; j < 3; ++j) nodal.push_back({nodes[j], -best.weight[j] * force});
+  k.touching[i] = 1;
+  k.arm[i] = arm;
+  k.point[i] = b.x[g] + arm;
+  k.force[i] = force;
+  k.torque[i] = arm.cross(force);
+  k.normal_force[i] = normal;
+  k.energy[i] = response.energy;
+  k.area[i] = M_PI * part.radius * best.overlap;
+  k.depth[i] = best.overlap;
+  k.stiffness[i] = response.stiffness;
+  k.tilt_stiffness[i] = part.crown > 0 ? response.force / part.crown : 0;
+  return true;
+}
+
+template <class Law, bool friction>
+void evaluate(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
+              const StepContext& c, const std::vector<double>& travel, const SurfacePatch& patch,
+              PatchContacts& k) {
+  int through = k.size();  // first contact of a grain that is too deep
+#pragma omp parallel for schedule(dynamic, 4) num_threads(c.threads) \
+    reduction(min                                                    \
+              : through) if (c.threads > 1)
+  for (int i = k.round; i < k.size(); ++i)
+    if (!evaluate_contact<Law, friction>(b, shapes, materials, c, travel, patch, k, i))
+      through = std::min(through, i);
+  if (through < k.size())
+    throw RunError("grain " + std::to_string(k.grain[through]) + " goes deeper into surface '" +
+                   patch.name + "' than its contact can follow: the contact is too soft for its " +
+                   "load, or the grain too fast");
+}
+
+template <class Law>
+EvaluatePatch instance(bool friction) {
+  return friction ? &evaluate<Law, true> : &evaluate<Law, false>;
+}
+
+}  // namespace
+
+EvaluatePatch make_round_patch_forces(const std::string& law, bool friction) {
+  if (law == HertzMindlinLaw::name) return instance<HertzMindlinLaw>(friction);
+  if (law == Sun2015Law::name) return instance<Sun2015Law>(friction);
+  if (law == LinearLaw::name) return instance<LinearLaw>(friction);
+  throw InputError("contact law '" + law + "': round grains on surfaces have " +
+                   HertzMindlinLaw::name + ", " + Sun2015Law::name + ", " + LinearLaw::name);
+}
+
+}  // namespace trackbed::dem

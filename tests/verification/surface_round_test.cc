@@ -1,0 +1,146 @@
+// Spheres, clumps and dilated polyhedra on deforming surfaces.
+#include <gtest/gtest.h>
+
+#include "dem/contact/restitution.h"
+#include "dem/grain/parts.h"
+#include "dem/grain/random.h"
+#include "dem/surface/round_patch.h"
+#include "surface_scene.h"
+
+namespace trackbed::dem {
+namespace {
+
+struct RoundScene : PatchScene {
+  RoundScene(const Mesh& m, double modulus, double friction = 0)
+      : PatchScene(m, .2, .5, modulus, friction) {
+    law = make_round_patch_forces("hertz_mindlin", friction > 0);
+    context.gravity.setZero();
+  }
+  int add_shape(const GrainShape& s, const Vec3& x, const Quat& q = Quat::Identity()) {
+    travel.push_back(0);
+    return add_grain(bodies, shapes, shapes.add(s), 0, 1000, x, q);
+  }
+};
+
+GrainShape dilated_box() { return as_grain(make_dilated_shape({make_box({.3, .2, .4}), .05})); }
+
+// A mesh with nodes pushed about, as a bent FE surface has them.
+Mesh wavy(int n, double height) {
+  Mesh m = flat_mesh(n, n, -1, 1, -1, 1);
+  Random random(4);
+  for (Vec3& p : m.nodes) p += Vec3(0, 0, height * random.uniform(-1, 1));
+  return m;
+}
+
+TEST(RoundOnSurface, slides_over_element_edges_without_a_bump) {
+  // Elements cut unevenly, the path crosses edges, nodes and diagonals.
+  Mesh m = flat_mesh(9, 7, -1, 1, -1, 1);
+  Random random(2);
+  for (Vec3& p : m.nodes)
+    if (std::abs(p.x()) < .9 && std::abs(p.y()) < .9)
+      p += Vec3(random.uniform(-.05, .05), random.uniform(-.05, .05), 0);
+  for (const bool sphere : {true, false}) {
+    RoundScene s(m, 1e8);
+    const double r = .1, depth = 1e-4;
+    const GrainShape box = dilated_box();
+    // The box lies on the face whose normal is its shortest principal way.
+    Quat level = Quat::Identity();
+    double height = r - depth;
+    if (!sphere) {
+      level = box.turn;
+      height = .25 - depth;
+    }
+    s.add_shape(sphere ? sphere_shape(r) : box, {-.5, -.31, height}, level);
+    s.evaluate_afresh();
+    ASSERT_EQ(s.contacts.touching[0], 1);
+    const double weight = s.bodies.force[0].z();
+    s.context.gravity = {0, 0, -weight / s.bodies.mass[0]};
+    const double torque = s.bodies.torque[0].norm();
+    EXPECT_LT(torque, 1e-9 * weight);
+    s.bodies.v[0] = {1, .7, 0};
+    s.context.dt = 1e-4;
+    double most = 0;
+    for (int k = 0; k < 9000; ++k) {
+      s.step();
+      most = std::max(most, std::abs(s.bodies.v[0].z()));
+    }
+    EXPECT_GT(s.bodies.x[0].x(), .3);
+    EXPECT_LT(most, 1e-10) << (sphere ? "sphere" : "dilated box");
+  }
+}
+
+TEST(RoundOnSurface, nodal_forces_are_the_energys_gradient) {
+  for (const bool sphere : {true, false}) {
+    Random random(9);
+    RoundScene s(wavy(4, .05), 1e8);
+    const GrainShape shape = sphere ? sphere_shape(.25) : dilated_box();
+    s.add_shape(shape, Vec3::Zero(), Quat(Eigen::AngleAxisd(.7, Vec3(.3, .5, -.8).normalized())));
+    for (int k = 0; k < 12; ++k) {
+      // Lowered until it touches by about 5 mm.
+      s.bodies.x[0] = Vec3(random.uniform(-.6, .6), random.uniform(-.6, .6), .6);
+      for (double depth = 0; depth < .005; s.bodies.x[0].z() -= .001) {
+        s.evaluate_afresh();
+        depth = s.contacts.size() ? s.contacts.depth[0] : 0;
+      }
+      s.evaluate_afresh();
+      ASSERT_EQ(count_contacts(s.contacts), 1);
+      const std::vector<Vec3> force = s.patch.force;
+      const Vec3 on_grain = s.bodies.force[0];
+      Vec3 moment = s.bodies.torque[0] + s.bodies.x[0].cross(on_grain);
+      double largest = 0;
+      for (int n = 0; n < s.patch.carried; ++n) {
+        moment += s.patch.node[n].cross(force[n]);
+        largest = std::max(largest, force[n].norm());
+      }
+      EXPECT_LT((s.nodal_sum() + on_grain).norm(), 1e-12 * on_grain.norm());
+      EXPECT_LT(moment.norm(), 1e-12 * on_grain.norm());
+      for (int n = 0; n < s.patch.carried; ++n) {
+        if (force[n].norm() < .05 * largest) continue;
+        const int d = k % 3;
+        const double h = 1e-7;
+        s.patch.node[n][d] += h;
+        s.evaluate_afresh();
+        const double up = s.energy();
+        s.patch.node[n][d] -= 2 * h;
+        s.evaluate_afresh();
+        const double down = s.energy();
+        s.patch.node[n][d] += h;
+        EXPECT_NEAR((down - up) / (2 * h), force[n][d], 2e-5 * on_grain.norm())
+            << (sphere ? "sphere " : "box ") << k << " node " << n;
+      }
+    }
+  }
+}
+
+TEST(RoundOnSurface, a_sphere_rebounds_from_a_sleepers_edge_as_from_a_line) {
+  // Around the convex edge of a folded patch the force has one size and points from the edge.
+  const Mesh m = edge_mesh(3, 6, 1);
+  RoundScene s(m, 1e9);
+  s.add_shape(sphere_shape(.2), Vec3::Zero());
+  const double force = 4. / 3 * 1e9 * std::sqrt(.2) * std::pow(.002, 1.5);
+  for (const double angle : {.01, .3, .7, 1.2, 1.56}) {
+    const Vec3 n(std::sin(angle), 0, std::cos(angle));
+    s.bodies.x[0] = Vec3(0, .13, 0) + .198 * n;
+    s.evaluate_afresh();
+    EXPECT_LT((s.bodies.force[0] - force * n).norm(), 1e-9 * force) << angle;
+  }
+}
+
+TEST(RoundOnSurface, clump_rests_on_its_spheres_with_friction) {
+  // Each sphere is a contact of its own with its own history; the sum carries the weight.
+  RoundScene s(flat_mesh(5, 5, -1, 1, -1, 1), 1e8, .5);
+  const GrainShape three =
+      as_grain(make_clump_shape({{{.1, 0, 0}, .08}, {{-.06, .1, 0}, .08}, {{-.06, -.1, 0}, .08}}));
+  const Quat flat = three.turn;
+  s.add_shape(three, {0, 0, .08 - 1e-5}, flat);
+  s.context.gravity = {0, 0, -9.81};
+  s.context.local_damping = .4;
+  s.context.dt = 2e-5;
+  s.evaluate_afresh();
+  for (int k = 0; k < 20000; ++k) s.step();
+  EXPECT_EQ(count_contacts(s.contacts), 3);
+  EXPECT_NEAR(s.nodal_sum().z(), -9.81 * s.bodies.mass[0], 1e-3 * 9.81 * s.bodies.mass[0]);
+}
+
+}  // namespace
+}  // namespace trackbed::dem
