@@ -167,6 +167,29 @@ def sections(run):
     return slices.draw(run.path("sections.csv"))
 
 
+def friction_path(run):
+    """n over mu of quasi-vibration: rungs as a line, the search's beds as marks."""
+    table = run.table("friction_path.csv")
+    mu, n = table["friction"], measures.finite(table["porosity"], "porosity")
+    source, trial = table["from_trial"], table["trial"]
+    rungs = [0]
+    while rungs[-1] + 1 < table.rows and source[rungs[-1] + 1] == trial[rungs[-1]] and mu[rungs[-1] + 1] < mu[rungs[-1]]:
+        rungs.append(rungs[-1] + 1)
+    figure, axes = plt.subplots()
+    axes.plot(mu[rungs], n[rungs], color=style.MOSS, marker="o", label="friction lowered step by step")
+    others = [k for k in range(table.rows) if k not in rungs]
+    if others:
+        axes.plot(mu[others], n[others], color=style.RUST, ls="", marker="x", label="search for the wanted porosity")
+        axes.legend(loc="best")
+    axes.set_xlabel("friction between grains, μ (1)")
+    axes.set_ylabel("porosity, n (1)")
+    dense, loose = float(n[rungs].min()), float(n[rungs].max())
+    return figure, (f"Quasi-vibration: porosity of the bed at rest over the friction between its grains, "
+                    f"{number(loose)} at μ = {number(float(mu[0]))} to {number(dense)} at μ = "
+                    f"{number(float(mu[rungs[-1]]))} (ratio {number(loose / dense)}). The last bed made has "
+                    f"n = {number(float(n[-1]))}.")
+
+
 def energy(run):
     table = run.table("energy.csv")
     time = table["time_s"]

@@ -194,6 +194,22 @@ def effects(run):
                         page.table(["quantity", "value", "unit", "meaning"], rows, numeric=(1,)))
 
 
+def zones(run):
+    """Grains by zone, and what an all-fine bed of that mass would have."""
+    table, why = attempt(run.table, "zones.csv")
+    if table is None:
+        return page.section("Zones", page.missing("The table of zones", why))
+    rows = [[table["zone"][k], *(number(float(table[name][k]), 4) for name in table.columns if name != "zone")]
+            for k in range(table.rows)]
+    have, fine = float(table["grains"].sum()), float(table["grains_if_all_fine"].sum())
+    return page.section(
+        "Zones",
+        page.paragraph(f"{number(have, 4)} grains where a bed of fine ones alone would have {number(fine, 4)}: "
+                       f"{number(100 * (1 - have / fine), 2)} % fewer to compute in every step."),
+        page.table(["zone", "grains", "fine", "coarse", "mass (kg)", "faces, mean", "if all were fine"], rows,
+                   numeric=tuple(range(1, 7))))
+
+
 def caution(run):
     cycles = measures.cycle_count(run)
     count = "One load cycle is" if cycles == 1 else f"{cycles or 'A few'} load cycles are"
@@ -219,6 +235,8 @@ def build(folder, with_pictures=True, width=None):
         parts.append(pictures(run, folder, width))
     for title, curves in CURVES:
         shown = []
+        if title == "The bed" and os.path.exists(os.path.join(folder, "friction_path.csv")):
+            curves = [*curves, ("friction_path", "Quasi-vibration", figures.friction_path)]
         for name, label, make in curves:
             made, why = attempt(make, run)
             if made is None:
@@ -228,6 +246,8 @@ def build(folder, with_pictures=True, width=None):
             _, why = attempt(style.save, made[0], path)
             shown.append(page.figure(path, made[1]) if why is None else page.missing(label, why))
         parts.append(page.section(title, page.grid(*shown)))
+    if os.path.exists(os.path.join(folder, "zones.csv")):
+        parts.append(zones(run))
     parts.append(limits(run))
     parts.append(effects(run))
     parts.append(caution(run))

@@ -11,6 +11,7 @@
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/layout.h"
+#include "apps/trackbed/simulation/zones.h"
 #include "dem/grain/library_report.h"
 
 namespace trackbed::apps {
@@ -24,6 +25,11 @@ void print_grains(const Scene& scene, const Plan& plan) {
   for (const auto& k : gradation_classes(scene))
     std::printf("            %5.1f to %5.1f mm  %5.1f %%  %7.2f kg  %6.0f grains\n", 1e3 * k.lower,
                 1e3 * k.upper, 100 * k.share, k.mass, k.grains);
+  if (!scene.zones.use) return;
+  std::printf("Zones       grains, mass; grains if all were fine\n");
+  for (const auto& z : estimate_zones(scene))
+    std::printf("            %-12s %6.0f %9.2f kg %6.0f\n", z.name.c_str(), z.grains, z.mass,
+                z.all_fine);
 }
 
 /// Form of the library by some of its shapes: making and sizing all of a large one takes minutes.

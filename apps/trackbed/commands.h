@@ -23,7 +23,8 @@ struct CheckOptions {
 
 struct PackOptions {
   std::string scene;
-  std::string output;  ///< folder; empty = results/<scene>
+  std::vector<std::string> formats;  ///< to export to: off, vtu, csv
+  std::string output;                ///< folder; empty = results/<scene>
   std::vector<std::string> set;
   int threads = 0;
   bool overwrite = false;

@@ -18,6 +18,23 @@ std::string tamping_cost(const Scene& s, const Plan&) {
   return "at most " + std::to_string(s.packing.plate_cycles) + " cycles";
 }
 
+std::string path_cost(const Scene& s, const Plan&) {
+  return std::to_string(s.packing.friction_path.size()) +
+         " frictions, then a search between two of them";
+}
+
+std::string copies_cost(const Scene& s, const Plan&) {
+  return std::to_string(s.packing.layers * s.packing.bays) +
+         " copies of a sample, whose seams settle; packs only that many times fewer grains";
+}
+
+std::string zones_cost(const Scene&, const Plan& plan) {
+  if (plan.all_fine == 0) return "fewer grains outside";  // not estimated
+  const double share = 1 - (plan.grains + plan.fill_grains) / plan.all_fine;
+  return shortest(std::round(100 * share)) + " % fewer grains than the " +
+         shortest(std::round(plan.all_fine)) + " of a bed that is fine everywhere";
+}
+
 std::string exchange_cost(const Scene& s, const Plan&) {
   const NumericsScene& n = s.numerics;
   if (n.exchange == "several_steps")
@@ -76,7 +93,15 @@ const std::vector<EffectKind>& effect_kinds() {
        "a pass over touching pairs, 48 bytes a pair",
        [](const Scene& s) { return s.contact.rolling > 0; }, nullptr},
       {"tamping", "Packing/Plate cycles", "0", "8", "cycles of a plate on the bed",
-       [](const Scene& s) { return s.packing.plate_cycles > 0; }, tamping_cost},
+       [](const Scene& s) { return s.packing.method == "tamping" && s.packing.plate_cycles > 0; },
+       tamping_cost},
+      {"quasi-vibration", "Packing/Method", "tamping", "quasi_vibration",
+       "beds at rest for friction after friction",
+       [](const Scene& s) { return s.packing.method == "quasi_vibration"; }, path_cost},
+      {"layers of one sample", "Packing/Layers", "1", "2", "seams that settle; less to pack",
+       [](const Scene& s) { return s.packing.layers * s.packing.bays > 1; }, copies_cost},
+      {"zones", "Zones/Use", "false", "true", "fewer and simpler grains outside",
+       [](const Scene& s) { return s.zones.use; }, zones_cost},
       {"exchange other than predicted", "Numerics/Exchange", "predicted", "iterated",
        "more surface evaluations a step, or fewer steps of the structures",
        [](const Scene& s) { return s.numerics.exchange != "predicted"; }, exchange_cost},

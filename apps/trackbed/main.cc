@@ -129,6 +129,13 @@ int run_program(int argc, char** argv) {
   PackOptions pack;
   command = app.add_subcommand("pack", "grains and packing only");
   add_scene(*command, pack.scene, pack.set);
+  command
+      ->add_option(
+          "--export", pack.formats,
+          "write DIR/packing.FORMAT too: off, vtu, csv (Packing/Start from reads off, csv)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"off", "vtu", "csv"}))
+      ->type_name("FORMATS");
   add_output(*command, pack.output, "results/<scene>");
   add_threads(*command, pack.threads);
   command->add_flag("--overwrite", pack.overwrite, "replace the run that the folder holds");

@@ -29,16 +29,17 @@ bool ends_with(const std::string& text, const std::string& end) {
 /// What a run, a packing, a comparison or a report writes (DESIGN: output of a run).
 bool written_by_a_run(const std::string& name) {
   for (const char* file :
-       {"cycles.csv",      "compaction.csv",  "history.csv",   "energy.csv",
-        "gradation.csv",   "grains.csv",      "timing.csv",    "scene.resolved.prm",
-        "snapshots.h5",    "snapshots.xdmf",  "checkpoint.h5", "report.html",
-        "compare.csv",     "compare.html",    "summary.csv",   "cost.csv",
-        "cost.html",       "runs.csv",        "knobs.csv",     "tolerance.csv",
-        "recommended.prm", "recommended.txt", "porosity.csv",  "sections.csv",
-        "library.csv",     "classes.csv"})
+       {"cycles.csv",      "compaction.csv",  "history.csv",       "energy.csv",
+        "gradation.csv",   "grains.csv",      "timing.csv",        "scene.resolved.prm",
+        "snapshots.h5",    "snapshots.xdmf",  "checkpoint.h5",     "report.html",
+        "compare.csv",     "compare.html",    "summary.csv",       "cost.csv",
+        "cost.html",       "runs.csv",        "knobs.csv",         "tolerance.csv",
+        "recommended.prm", "recommended.txt", "porosity.csv",      "sections.csv",
+        "library.csv",     "classes.csv",     "friction_path.csv", "zones.csv",
+        "packing.off",     "packing.vtu",     "packing.csv"})
     if (name == file || name == file + std::string(".part")) return true;
-  return starts_with(name, "structure_") || starts_with(name, "snapshots") ||
-         ends_with(name, ".png");
+  return starts_with(name, "structure_") || starts_with(name, "path_") ||
+         starts_with(name, "snapshots") || ends_with(name, ".png");
 }
 
 }  // namespace

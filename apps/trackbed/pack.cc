@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "apps/trackbed/commands.h"
 #include "apps/trackbed/output_folder.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/signals.h"
+#include "apps/trackbed/simulation/export_packing.h"
 #include "apps/trackbed/simulation/packing_store.h"
 #include "apps/trackbed/simulation/simulate.h"
 
@@ -17,7 +19,10 @@ int pack_command(const PackOptions& o) {
   Progress progress;
   const Ending ending = simulate(scene, {folder.path(), o.threads, false, true}, progress);
   if (ending == Ending::stopped) return 128 + stop_signal();
-  std::printf("packing in %s, kept as %s\n", path.c_str(), kept_packing(scene).state.c_str());
+  const std::string kept = kept_packing(scene).state;
+  for (const std::string& file : export_packing(scene, kept, o.formats, folder.path()))
+    std::printf("%s\n", file.c_str());
+  std::printf("packing in %s, kept as %s\n", path.c_str(), kept.c_str());
   return 0;
 }
 

@@ -52,6 +52,10 @@ class Section {
 };
 
 void add_container(Section s) {
+  s.choice("Shape", "box", {"box", "cylinder"},
+           "a cylinder stands upright; Length and Width are its diameter");
+  s.integer("Sides", "32", 8, 256,
+            "of the prism of equal area that stands for a cylinder; 32: radius within 0.4 %");
   s.number("Length", "0.6", "m", 0.01, 100, "of the box across the track (x, along the sleeper)");
   s.number("Width", "0.3", "m", 0.01, 100,
            "of the box along the track (y); a periodic bay's length");
@@ -125,6 +129,21 @@ void add_gradation(Section s) {
            "of the mass, in every class: thinner than 0.6 sieve sizes");
 }
 
+void add_zones(Section s) {
+  auto curves = gradation_curves();
+  curves.insert(curves.begin(), "scaled");
+  s.boolean("Use", "false",
+            "fine, angular grains under the sleeper; coarser or simpler ones outside");
+  s.number("Margin", "0.1", "m", 0, 10, "of the fine zone beyond the sleeper's footprint");
+  s.number("Transition", "0.06", "m", 0, 10,
+           "width of the ring around it in which fine and coarse grains are mixed");
+  s.choice("Curve", "scaled", curves,
+           "sieve curve outside; scaled = the scene's own with sizes times Size ratio");
+  s.number("Size ratio", "1.4", "-", 0.5, 10, "coarse over fine sieve sizes, of Curve = scaled");
+  s.choice("Generator", "ellipsoid", grain_generators(), "of the grains outside");
+  s.integer("Vertices", "8", 4, 60, "of each grain outside, with Generator = ellipsoid");
+}
+
 void add_contact(Section s) {
   s.choice("Law", "stored_energy", contact_laws(),
            "normal contact: stored_energy is conservative; shao2017 is Eq. 17 as printed");
@@ -158,6 +177,30 @@ void add_contact(Section s) {
   s.number("Packing damping", "0.4", "-", 0, 0.95, "the same while packing");
   s.number("Largest overlap", "0.2", "-", 1e-6, 0.5,
            "depth over the grain's sieve size at which a run stops");
+}
+
+void add_packing_method(Section s) {
+  s.choice("Method", "tamping", {"tamping", "quasi_vibration", "deposit"},
+           "a plate; friction lowered until a porosity is reached (Jin 2017); gravity alone");
+  s.text("Start from", "", "-",
+         "exported packing (.csv or .off, trackbed pack --export) instead of drawn grains, "
+         "relative to this file; empty = draw");
+  s.number("Target porosity", "-1", "-", -1, 0.999,
+           "of quasi_vibration, by the height of the bed's centre of volume; "
+           "negative = by relative density");
+  s.number("Target relative density", "0.5", "-", 0, 1,
+           "of quasi_vibration without a target porosity: between the path's loosest (0) and "
+           "densest bed (1), by void ratios");
+  s.numbers("Friction path", "0.8, 0.6, 0.4, 0.2, 0.1, 0.05, 0", "-", 0, 10,
+            "of quasi_vibration, grain on grain: of the deposit, then lowered in turn");
+  s.number("Porosity tolerance", "1e-3", "-", 1e-6, 0.1, "of the target, absolute");
+  s.number("Unbalanced force", "0.01", "-", 1e-6, 1,
+           "mean over the mean contact force at which a bed of the friction path, or of layers, "
+           "is at rest");
+  s.integer("Layers", "1", 1, 1000,
+            "the bed is this many copies of a packed layer, varied, the seams settled");
+  s.integer("Bays", "1", 1, 1000,
+            "the same along the track, where it is periodic: a sample of Width / Bays");
 }
 
 void add_packing(Section s) {
@@ -319,7 +362,9 @@ std::vector<Parameter> scene_parameters() {
   add_container({table, "Container"});
   add_grains({table, "Grains"});
   add_gradation({table, "Gradation"});
+  add_zones({table, "Zones"});
   add_contact({table, "Contact"});
+  add_packing_method({table, "Packing"});
   add_packing({table, "Packing"});
   add_sleeper({table, "Sleeper"});
   add_subgrade({table, "Subgrade"});

@@ -12,6 +12,7 @@
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
+#include "apps/trackbed/simulation/zones.h"
 #include "coupling/edit.h"
 #include "dem/grain/library.h"
 #include "dem/motion/time_step.h"
@@ -88,6 +89,12 @@ Plan make_plan(const Scene& scene, int threads) {
   }
   const Layout layout = make_layout(scene);
   plan.fill_grains = plan.grains * layout.fill_mass / layout.bed_mass;
+  if (scene.zones.use) {
+    double zoned = 0;
+    for (const ZoneEstimate& z : estimate_zones(scene))
+      zoned += z.grains, plan.all_fine += z.all_fine;
+    plan.grains *= zoned / plan.all_fine, plan.fill_grains *= zoned / plan.all_fine;
+  }
 
   auto stages = packing_stages(scene);
   const auto loading = loading_stages(scene);
@@ -99,13 +106,15 @@ Plan make_plan(const Scene& scene, int threads) {
     sample.materials = make_materials(scene, stage.modulus, stage.friction);
     const double limit = dem::expected_limit(sample.bodies, sample.shapes, sample.materials, {}).dt;
     const double dt = given > 0 ? given : stage.margin * limit;
+    const double rungs = stage.again ? static_cast<double>(scene.packing.friction_path.size()) : 1;
     const double usual = stage.name == "deposit"     ? usual_deposit
                          : stage.name == "hardening" ? usual_hardening
-                         : stage.until_quiet         ? usual_settling
+                         : stage.until_quiet         ? usual_settling * rungs
                                                      : stage.longest;
-    const double duration = std::min(usual, stage.longest);
+    const double longest = rungs * stage.longest;
+    const double duration = std::min(usual, longest);
     plan.stages.push_back(
-        {stage.name, duration, stage.longest, dt, std::ceil(duration / dt), stage.ledger, 0});
+        {stage.name, duration, longest, dt, std::ceil(duration / dt), stage.ledger, 0});
   }
 
   const double dt = plan.stages.empty() ? 1e-5 : plan.stages.back().time_step;

@@ -33,8 +33,9 @@ struct StructureCost {
 };
 
 struct Plan {
-  double grains;       ///< in the bed, class by class
-  double fill_grains;  ///< put beside the sleeper after packing
+  double grains;        ///< in the bed, class by class
+  double all_fine = 0;  ///< in bed and beside, if there were no zones; 0 = there are none
+  double fill_grains;   ///< put beside the sleeper after packing
   StructureCost sleeper, subgrade;
   std::vector<PlanStage> stages;
   std::vector<Effect> effects;

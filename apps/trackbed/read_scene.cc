@@ -1,7 +1,9 @@
 #include "apps/trackbed/read_scene.h"
 
 #include <filesystem>
+#include <set>
 
+#include "apps/trackbed/check_packing.h"
 #include "apps/trackbed/check_scene.h"
 #include "apps/trackbed/check_structures.h"
 #include "apps/trackbed/choices.h"
@@ -18,6 +20,8 @@ using Values = ParameterValues;
 
 ContainerScene container(const Values& v) {
   ContainerScene c{};
+  c.shape = v.text("Container/Shape");
+  c.sides = static_cast<int>(v.integer("Container/Sides"));
   c.length = v.number("Container/Length");
   c.width = v.number("Container/Width");
   c.depth = v.number("Container/Ballast depth");
@@ -75,6 +79,18 @@ GradationScene gradation(const Values& v) {
   return g;
 }
 
+ZoneScene zones(const Values& v) {
+  ZoneScene z{};
+  z.use = v.boolean("Zones/Use");
+  z.margin = v.number("Zones/Margin");
+  z.transition = v.number("Zones/Transition");
+  z.curve = v.text("Zones/Curve");
+  z.size_ratio = v.number("Zones/Size ratio");
+  z.generator = v.text("Zones/Generator");
+  z.vertices = static_cast<int>(v.integer("Zones/Vertices"));
+  return z;
+}
+
 ContactScene contact(const Values& v) {
   ContactScene c{};
   c.law = v.text("Contact/Law");
@@ -97,6 +113,15 @@ ContactScene contact(const Values& v) {
 
 PackingScene packing(const Values& v) {
   PackingScene p{};
+  p.method = v.text("Packing/Method");
+  p.start_from = v.text("Packing/Start from");
+  p.target_porosity = v.number("Packing/Target porosity");
+  p.target_relative_density = v.number("Packing/Target relative density");
+  p.friction_path = v.numbers("Packing/Friction path");
+  p.porosity_tolerance = v.number("Packing/Porosity tolerance");
+  p.unbalanced = v.number("Packing/Unbalanced force");
+  p.layers = static_cast<int>(v.integer("Packing/Layers"));
+  p.bays = static_cast<int>(v.integer("Packing/Bays"));
   p.bulk_density = v.number("Packing/Bulk density");
   p.packing_friction = v.number("Packing/Packing friction");
   p.settle_time = v.number("Packing/Settle time");
@@ -214,12 +239,13 @@ OutputScene output(const Values& v) {
   return o;
 }
 
-/// Meshes, stones and tables are given relative to the scene's file; from here on they are absolute,
-/// so that scene.resolved.prm can be run from anywhere.
+/// Files are given relative to the scene's file; from here on they are absolute, so that
+/// scene.resolved.prm can be run from anywhere.
 void make_absolute(std::vector<SceneEntry>& entries) {
   namespace fs = std::filesystem;
+  const std::set<std::string> files{"Mesh", "Stones", "Table", "Start from"};
   for (auto& entry : entries)
-    if ((entry.key == "Mesh" || entry.key == "Stones" || entry.key == "Table") &&
+    if (files.count(entry.key) > 0 &&
         !entry.value.empty() && fs::path(entry.value).is_relative()) {
       const auto folder = entry.line > 0 ? fs::path(entry.file).parent_path() : fs::path();
       entry.value = fs::absolute(folder / entry.value).lexically_normal().string();
@@ -243,6 +269,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.container = container(values);
   scene.grains = grains(values);
   scene.gradation = gradation(values);
+  scene.zones = zones(values);
   scene.contact = contact(values);
   scene.packing = packing(values);
   scene.sleeper = sleeper(values);
@@ -253,6 +280,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.output = output(values);
   decide(scene);
   check_scene(scene, values);
+  check_packing(scene, values);
   check_structures(scene, values);
   return scene;
 }

@@ -14,6 +14,8 @@ namespace trackbed::apps {
 /// x across the track (along the sleeper), y along the track, z up; the subgrade's top is z = 0
 /// and the box is centred at x = y = 0.
 struct ContainerScene {
+  std::string shape;      ///< "box" | "cylinder"
+  int sides;              ///< of the prism that stands for a cylinder
   double length;          ///< in x [m]
   double width;           ///< in y [m]
   double depth;           ///< of ballast under the sleeper, design value [m]
@@ -24,6 +26,17 @@ struct ContainerScene {
   double shoulder_slope;  ///< run over rise of the shoulder (1.75 = 1:1.75)
   double fill_height;     ///< of the ballast beside the sleeper, above the sleeper's base [m]
   double friction;        ///< grain on wall
+};
+
+/// Grains outside the part that matters: coarser, simpler, fewer.
+struct ZoneScene {
+  bool use;
+  double margin;      ///< of the fine zone beyond the sleeper's footprint [m]
+  double transition;  ///< width of the ring in which fine and coarse grains are mixed [m]
+  std::string curve;  ///< outside; "scaled" = the scene's own times size_ratio
+  double size_ratio;
+  std::string generator;
+  int vertices;  ///< of each grain outside (generator ellipsoid)
 };
 
 struct GrainScene {
@@ -76,6 +89,14 @@ struct ContactScene {
 };
 
 struct PackingScene {
+  std::string method;      ///< "tamping" | "quasi_vibration" | "deposit"
+  std::string start_from;  ///< exported packing (.csv, .off); empty = grains are drawn and poured
+  double target_porosity;  ///< of quasi-vibration; negative: by relative density
+  double target_relative_density;     ///< 0 loosest, 1 densest
+  std::vector<double> friction_path;  ///< its grain frictions, falling
+  double porosity_tolerance;
+  double unbalanced;        ///< force, over the mean contact force, at which such a bed is at rest
+  int layers, bays;         ///< copies of the packed sample upward, and along the track
   double bulk_density;      ///< design density of the bed that sets the grain mass [kg/m3]
   double packing_friction;  ///< while dropping; < 0 = the grains' own
   double settle_time;       ///< longest time of the gravity deposit [s]
@@ -169,6 +190,7 @@ struct Scene {
   ContainerScene container;
   GrainScene grains;
   GradationScene gradation;
+  ZoneScene zones;
   ContactScene contact;
   PackingScene packing;
   SleeperScene sleeper;

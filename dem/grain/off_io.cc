@@ -179,8 +179,12 @@ Polyhedron read_solid(const std::string& path, const SolidOptions& options) {
 std::vector<Polyhedron> read_solids(const std::string& path, const SolidOptions& options) {
   const RawMesh mesh = parse(path);
   if (mesh.vertices.empty() || mesh.faces.empty()) throw InputError(path + ": holds no faces");
+  // Solids that touch may have corners in one place: they are told apart by their indices, unless
+  // the file gives each facet corners of its own.
   const double tolerance = mesh.single_precision ? 3e-7 : 1e-9;
-  const auto pieces = pieces_of(welded(mesh, tolerance * extent(mesh.vertices)));
+  auto pieces = pieces_of(mesh);
+  if (std::any_of(pieces.begin(), pieces.end(), [](const auto& p) { return p.faces.size() == 1; }))
+    pieces = pieces_of(welded(mesh, tolerance * extent(mesh.vertices)));
   std::vector<Polyhedron> solids;
   for (size_t k = 0; k < pieces.size(); ++k)
     solids.push_back(check_solid(

@@ -10,25 +10,6 @@
 namespace trackbed::dem {
 namespace {
 
-// How far grain i may go down before it meets j, at most `limit` [m].
-double free_fall(const Bodies& b, const ShapeTable& shapes, int i, int j, const Vec3& shift,
-                 double limit) {
-  const ConvexView vi = shapes.view(b.shape[i]), vj = shapes.view(b.shape[j]);
-  const Pose pj{b.R[j], b.x[j] + shift};
-  Vec3 axis = pj.x - b.x[i];
-  double way = 0;
-  for (int step = 0; step < 1000 && way < limit; ++step) {
-    const Pose pi{b.R[i], b.x[i] - Vec3(0, 0, way)};
-    const double gap = separating_axis(vi, pi, vj, pj, axis);
-    const double closing = -axis.z();  // of the gap along the axis, per way down
-    if (gap <= 0) return way;
-    if (closing <= 1e-12 || gap / closing >= limit - way) return limit;
-    // A hair past where this axis stops to separate, so that another one is looked for.
-    way += gap / closing + 1e-9 * vi.radius;
-  }
-  return std::min(way, limit);
-}
-
 double lowest_point(const Bodies& b, const ShapeTable& shapes, int i) {
   double low = std::numeric_limits<double>::infinity();
   for (const Vec3& p : shapes.shape(b.shape[i]).body.vertices)
@@ -37,6 +18,22 @@ double lowest_point(const Bodies& b, const ShapeTable& shapes, int i) {
 }
 
 }  // namespace
+
+double free_fall(const ConvexView& a, const Pose& from, const ConvexView& b, const Pose& pb,
+                 double limit) {
+  Vec3 axis = pb.x - from.x;
+  double way = 0;
+  for (int step = 0; step < 1000 && way < limit; ++step) {
+    const Pose pa{from.R, from.x - Vec3(0, 0, way)};
+    const double gap = separating_axis(a, pa, b, pb, axis);
+    const double closing = -axis.z();  // of the gap along the axis, per way down
+    if (gap <= 0) return way;
+    if (closing <= 1e-12 || gap / closing >= limit - way) return limit;
+    // A hair past where this axis stops to separate, so that another one is looked for.
+    way += gap / closing + 1e-9 * a.radius;
+  }
+  return std::min(way, limit);
+}
 
 void lower_grains(Bodies& b, const ShapeTable& shapes, int first, double floor, const Vec3& period,
                   double clearance) {
@@ -59,7 +56,8 @@ void lower_grains(Bodies& b, const ShapeTable& shapes, int first, double floor, 
       if (apart.head<2>().squaredNorm() >= reach * reach || apart.z() > reach ||
           -apart.z() > way + reach)
         continue;
-      way = std::min(way, free_fall(b, shapes, i, j, shift, way));
+      way = std::min(way, free_fall(shapes.view(b.shape[i]), {b.R[i], b.x[i]},
+                                    shapes.view(b.shape[j]), {b.R[j], b.x[j] + shift}, way));
     }
     b.x[i].z() -= std::max(0.0, way - clearance);
     settled[i] = 1;

@@ -45,6 +45,21 @@ class Plan {
     return z;
   }
 
+  bool in_zone(double x, double y, int zone) const {
+    const auto inside = [&](const PlacementSpace::Block& b) {
+      return x >= b.low.x() && x <= b.high.x() && y >= b.low.y() && y <= b.high.y();
+    };
+    const int zones = static_cast<int>(space_.zones.size());
+    return (zone >= zones || inside(space_.zones[zone])) &&
+           (zone == 0 || !inside(space_.zones[zone - 1]));
+  }
+
+  bool over_wall(double x, double y, double radius) const {
+    if (space_.radius <= 0) return false;
+    const Vec3 middle = 0.5 * (space_.low + space_.high);
+    return std::hypot(x - middle.x(), y - middle.y()) > space_.radius - radius;
+  }
+
   bool over_block(double x, double y, double radius) const {
     for (const auto& b : space_.blocks) {
       const double dx = std::max({b.low.x() - x, 0., x - b.high.x()});
@@ -96,7 +111,8 @@ Quat random_rotation(Random& random) {
 }  // namespace
 
 Placement place_loose(const std::vector<double>& radii, const PlacementSpace& space,
-                      const PlacedSpheres& present, int tries, std::uint64_t seed) {
+                      const PlacedSpheres& present, int tries, std::uint64_t seed,
+                      const std::vector<int>& zone) {
   double largest = 0;
   for (const double r : radii) largest = std::max(largest, r);
   for (const double r : present.radius) largest = std::max(largest, r);
@@ -110,7 +126,8 @@ Placement place_loose(const std::vector<double>& radii, const PlacementSpace& sp
 
   Random random(seed);
   Placement placement;
-  for (const double r : radii) {
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double r = radii[i];
     Vec3 best(0, 0, std::numeric_limits<double>::infinity());
     int left = tries;
     for (int spot = 0; left > 0 && spot < 1000 * tries; ++spot) {
@@ -119,14 +136,18 @@ Placement place_loose(const std::vector<double>& radii, const PlacementSpace& sp
         return random.uniform(space.low[k] + margin, space.high[k] - margin);
       };
       const double x = along(0), y = along(1);
-      if (plan.over_block(x, y, r)) continue;
+      if (plan.over_block(x, y, r) || plan.over_wall(x, y, r)) continue;
+      if (!zone.empty() && !plan.in_zone(x, y, zone[i])) continue;
       --left;
       const double z = plan.rest(x, y, r);
       if (z < best.z()) best = Vec3(x, y, z);
     }
     if (!std::isfinite(best.z()))
-      throw InputError("Container: no room beside the sleeper for a grain of " +
-                       std::to_string(2e3 * r) + " mm");
+      throw InputError("Container: no room " +
+                       std::string(!space.blocks.empty() ? "beside the sleeper "
+                                   : zone.empty()        ? ""
+                                                         : "in its zone ") +
+                       "for a grain of " + std::to_string(2e3 * r) + " mm");
     plan.add(best, r);
     placement.centre.push_back(best);
     placement.turn.push_back(random_rotation(random));

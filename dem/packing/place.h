@@ -16,6 +16,10 @@ struct PlacementSpace {
     Vec3 low, high;
   };
   std::vector<Block> blocks;  ///< kept free, from their bottom to any height
+  /// Nested rectangles in plan. A grain of zone k has its centre inside zones[k] and outside
+  /// zones[k-1]; zone zones.size() is what is left.
+  std::vector<Block> zones;
+  double radius = 0;  ///< of a round container about the middle of the box [m]; 0 = the box
 };
 
 /// Spheres already there that must not be touched.
@@ -30,8 +34,10 @@ struct Placement {
 };
 
 /// Places spheres of the given radii [m] in the given order, `tries` spots each. Reproducible by
-/// `seed` on any machine. Throws InputError when a grain is wider than the space.
+/// `seed` on any machine. `zone`: of each grain; empty = anywhere. Throws InputError when a grain
+/// is wider than the space or its zone.
 Placement place_loose(const std::vector<double>& radii, const PlacementSpace&,
-                      const PlacedSpheres& present, int tries, std::uint64_t seed);
+                      const PlacedSpheres& present, int tries, std::uint64_t seed,
+                      const std::vector<int>& zone = {});
 
 }  // namespace trackbed::dem

@@ -1,5 +1,7 @@
 #include "dem/surface/rigid.h"
 
+#include <cmath>
+
 #include "base/error.h"
 
 namespace trackbed::dem {
@@ -41,6 +43,41 @@ std::vector<int> add_container(Bodies& b, ShapeTable& shapes, const Vec3& low, c
     else
       from[d] = high[d];
     walls.push_back(add_box(b, shapes, from, to, material, 1, kFixed));  // held: mass is no matter
+  }
+  return walls;
+}
+
+double prism_apothem(double radius, int sides) {
+  return radius * std::sqrt(M_PI / (sides * std::tan(M_PI / sides)));
+}
+
+Polyhedron make_round_prism(double radius, double height, int sides) {
+  const double corner = prism_apothem(radius, sides) / std::cos(M_PI / sides);
+  std::vector<Vec3> points;
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * M_PI * (k + 0.5) / sides;
+    for (const double z : {0.0, height})
+      points.emplace_back(corner * std::cos(angle), corner * std::sin(angle), z);
+  }
+  return convex_hull(points);
+}
+
+std::vector<int> add_round_wall(Bodies& b, ShapeTable& shapes, const Vec3& centre, double radius,
+                                double low, double high, double thickness, int material,
+                                int sides) {
+  if (sides < 8) throw InputError("a round wall needs at least 8 sides");
+  const double inner = prism_apothem(radius, sides), outer = inner + thickness;
+  const double slope = std::tan(M_PI / sides);
+  std::vector<Vec3> points;  // of the side that faces along x
+  for (const double r : {inner, outer})
+    for (const double side : {-1.0, 1.0})
+      for (const double z : {low, high}) points.emplace_back(r, side * r * slope, z);
+  const Polyhedron block = convex_hull(points);
+  std::vector<int> walls;
+  for (int k = 0; k < sides; ++k) {
+    const Quat turn(Eigen::AngleAxisd(2 * M_PI * k / sides, Vec3::UnitZ()));
+    walls.push_back(add_rigid_body(b, shapes, block, material, 1, Vec3(centre.x(), centre.y(), 0),
+                                   turn, kFixed));
   }
   return walls;
 }

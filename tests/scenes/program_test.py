@@ -309,6 +309,120 @@ class Ranks(SceneTest):
         self.assertEqual(wrong.stderr.count("Numerics/Margin"), 1, wrong.stderr)
 
 
+class Packings(SceneTest):
+    """Beds without a load: what the packing methods promise."""
+    VIBRATED = {"Packing/Method": "quasi_vibration", "Packing/Target porosity": "0.53", "Container/Friction": "0",
+                "Packing/Porosity tolerance": "3e-3", "Packing/Friction path": "0.8, 0.2, 0", "Packing/Settle time": "3",
+                "Numerics/Packing margin": "0.6", "Output/Snapshot interval": "0"}
+
+    def pack(self, output, *options, change=None, **more):
+        changes = {"Packing/Folder": "packings", "Output/Snapshot interval": "0", **(change or {})}
+        sets = [word for path, value in changes.items() for word in ("--set", f"{path}={value}")]
+        done = self.trackbed("pack", "tiny.prm", "--output", output, *options, *sets, **more)
+        return done if more.get("exit_code") else self.folder / output
+
+    def grains(self, run):
+        return rows(run / "packing.csv")
+
+    def test_quasi_vibration(self):
+        run = self.pack("a", change=self.VIBRATED)
+        path = rows(run / "friction_path.csv")
+        self.assertTrue(any(abs(float(p["porosity"]) - 0.53) <= 3e-3 for p in path))
+        frictions = [float(p["friction"]) for p in path if p["from_trial"] == "" or
+                     int(p["from_trial"]) == int(p["trial"]) - 1]
+        self.assertEqual(frictions[0], 0.8)
+        porosity = [float(p["porosity"]) for p in path]
+        self.assertGreater(porosity[0], porosity[1], "less friction, denser")
+        self.assertTrue(all(float(p["unbalanced_share"]) < 0.01 for p in path))
+        self.assertFalse(list(run.glob("path_*.h5")), "kept beds are removed in the end")
+        # A stopped search goes on to the same bed.
+        self.stop_and_go_on(path)
+        # Taken from the store with its curve.
+        (run / "friction_path.csv").unlink()
+        self.trackbed("run", "tiny.prm", "--output", "b", "--set=Packing/Folder=packings",
+                      *(f"--set={k}={v}" for k, v in {**self.VIBRATED, **SHORT}.items()))
+        self.assertEqual(rows(self.folder / "b" / "friction_path.csv"), path)
+
+    def stop_and_go_on(self, path):
+        sets = [f"--set={k}={v}" for k, v in {**self.VIBRATED, **SHORT, "Packing/Folder": "packings",
+                                               "Packing/Reuse": "false"}.items()]
+        command = [PROGRAM, "run", "tiny.prm", "--output", "stopped", *sets]
+        with subprocess.Popen(command, cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as program:
+            for line in program.stderr:
+                if line.startswith("quasi-vibration"):
+                    program.send_signal(signal.SIGINT)
+                    break
+            program.communicate()
+        self.assertEqual(program.returncode, 128 + signal.SIGINT)
+        self.assertLess(len(rows(self.folder / "stopped" / "friction_path.csv")), len(path))
+        self.trackbed(*command[1:], "--resume")
+        self.assertEqual(rows(self.folder / "stopped" / "friction_path.csv"), path)
+
+    def test_unreachable_porosity(self):
+        done = self.pack("a", change={**self.VIBRATED, "Packing/Target porosity": "0.2",
+                                      "Packing/Friction path": "0.8, 0"}, exit_code=2)
+        self.assertRegex(done.stderr.splitlines()[-1], r"tiny.prm: Packing/Target porosity = 0.2: a porosity of 0.2000 "
+                         r"cannot be reached; these grains reach 0\.4\d+ \(friction 0\) to 0\.5\d+ \(friction 0.8\)")
+
+    def test_layers(self):
+        change = {"Packing/Method": "deposit", "Packing/Settle time": "1.5", "Packing/Packing friction": "0.3"}
+        deep = {"Container/Ballast depth": "0.14", "Packing/Layers": "2"}
+        one = self.pack("one", "--export", "csv", change=change)
+        two = self.pack("two", "--export", "csv", change={**change, **deep})
+        self.assertEqual(len(self.grains(two)), 2 * len(self.grains(one)))
+        heights = [sum(float(g["z_m"]) for g in self.grains(run)) / len(self.grains(run)) for run in (one, two)]
+        self.assertAlmostEqual(heights[1] / heights[0], 2, delta=0.25)
+        self.assertLess(float(self.summary(two)["largest overlap"]), 0.05)
+        stages = list(dict.fromkeys(row["stage"] for row in rows(two / "history.csv")))
+        self.assertEqual(stages, ["deposit", "layers", "sleeper in", "hardening"])
+
+    def test_bays(self):
+        change = {"Packing/Method": "deposit", "Container/Periodic along track": "true", "Container/Width": "0.36",
+                  "Packing/Bays": "2", "Container/Ballast depth": "0.06", "Packing/Settle time": "1.5"}
+        run = self.pack("a", "--export", "csv", change=change)
+        grains = self.grains(run)
+        half = len(grains) // 2
+        # The seam of a periodic sample needs no settling: the second bay still is the first one moved on.
+        moved = [float(b["y_m"]) - float(a["y_m"]) for a, b in zip(grains[:half], grains[half:])]
+        self.assertLess(sorted(abs(m - 0.18) for m in moved)[half // 2], 1e-3)
+
+    def test_cylinder(self):
+        run = self.pack("a", "--export", "csv", change={"Container/Shape": "cylinder", "Container/Width": "0.13"})
+        radius = max((float(g["x_m"]) ** 2 + float(g["y_m"]) ** 2) ** 0.5 for g in self.grains(run))
+        self.assertLess(radius, 0.065)
+        self.assertGreater(radius, 0.045)
+        self.assertTrue(rows(run / "compaction.csv"), "the plate is round too")
+
+    def test_zones(self):
+        change = {"Zones/Use": "true", "Container/Length": "0.3", "Container/Ballast depth": "0.08",
+                  "Zones/Margin": "0.02", "Zones/Transition": "0.02", "Zones/Size ratio": "1.2", **SHORT}
+        run = self.run_scene("a", change=change)
+        fine, mixed, coarse = rows(run / "zones.csv")
+        for zone in (fine, mixed, coarse):
+            self.assertEqual(int(zone["grains"]), int(zone["fine_grains"]) + int(zone["coarse_grains"]))
+        self.assertGreater(int(fine["fine_grains"]), 0.9 * int(fine["grains"]))
+        self.assertGreater(int(coarse["coarse_grains"]), 0.9 * int(coarse["grains"]))
+        self.assertGreater(float(coarse["grains_if_all_fine"]), 1.4 * int(coarse["grains"]))
+        self.assertLess(float(coarse["mean_faces"]), float(fine["mean_faces"]))
+
+    def test_export_and_start_from_it(self):
+        run = self.pack("a", "--export", "off,vtu,csv")
+        self.assertIn("VTKFile", (run / "packing.vtu").read_text())
+        first = self.grains(run)
+        # Put in place and written again, without time to move: the same to rounding.
+        still = {"Packing/Method": "deposit", "Packing/Settle time": "1e-6", "Packing/Start from": "a/packing.csv"}
+        for file in ("a/packing.csv", "a/packing.off"):
+            again = self.pack("b", "--overwrite", "--export", "csv", change={**still, "Packing/Start from": file})
+            self.assertEqual(len(self.grains(again)), len(first))
+            for one, other in zip(first, self.grains(again)):
+                for key in ("x_m", "y_m", "z_m"):
+                    self.assertAlmostEqual(float(one[key]), float(other[key]), delta=1e-6)
+                self.assertAlmostEqual(float(one["sieve_m"]), float(other["sieve_m"]), delta=1e-6)
+        # The store tells packings from different files apart.
+        self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 3)
+
+
 class SameAnswer(SceneTest):
     def test_threads(self):
         # A hundred grains: enough for a second thread.

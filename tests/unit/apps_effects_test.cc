@@ -14,7 +14,7 @@ using Changes = std::vector<std::string>;
 
 // Room for every effect: a long bay, a short sleeper.
 Scene scene(const Changes& changes) {
-  Changes set{"Container/Length=1.6", "Container/Width=0.3"};
+  Changes set{"Container/Length=1.6", "Container/Width=0.3", "Container/Ballast depth=0.14"};
   set.insert(set.end(), changes.begin(), changes.end());
   return read_scene(TINY, set);
 }

@@ -120,6 +120,96 @@ TEST(Place, blocks_stay_free_and_walls_are_kept) {
     }
 }
 
+// Mirror image of the walls' case: with a seam grains do stand across it, between walls none does.
+TEST(Place, grains_stand_across_the_seam_but_not_through_walls) {
+  for (const double period : {0.0, 0.2}) {
+    const Heap h = heap(box(period), false);
+    int across = 0;
+    for (int i = 0; i < h.bodies.size(); ++i) {
+      bool out = false;
+      for (const Vec3& p : h.shapes.shape(h.bodies.shape[i]).body.vertices)
+        out = out || std::abs((h.bodies.x[i] + h.bodies.R[i] * p).y()) > 0.1;
+      across += out;
+    }
+    if (period == 0)
+      EXPECT_EQ(across, 0);
+    else
+      EXPECT_GT(across, 5);
+  }
+}
+
+TEST(Place, grains_keep_to_their_zone) {
+  PlacementSpace space = box(0);
+  space.zones = {{{-0.05, -0.1, 0}, {0.05, 0.1, 0}}, {{-0.08, -0.1, 0}, {0.08, 0.1, 0}}};
+  std::vector<double> radii;
+  std::vector<int> zone;
+  for (int i = 0; i < 150; ++i) radii.push_back(0.012 + 1e-5 * i), zone.push_back(i % 3);
+  const Placement p = place_loose(radii, space, {}, 10, 5, zone);
+  for (int i = 0; i < 150; ++i) {
+    const double x = std::abs(p.centre[i].x());
+    EXPECT_EQ(x <= 0.05 ? 0 : x <= 0.08 ? 1 : 2, zone[i]);
+    for (int j = 0; j < i; ++j)
+      EXPECT_GT((p.centre[i] - p.centre[j]).norm(), radii[i] + radii[j] - 1e-12);
+  }
+  space.zones[0].low.x() = space.zones[0].high.x() = 1;
+  EXPECT_THROW(place_loose(radii, space, {}, 10, 5, zone), InputError);
+}
+
+TEST(Place, a_round_container_holds_every_grain) {
+  PlacementSpace space;
+  space.low = {-0.15, -0.15, 0}, space.high = {0.15, 0.15, 0};
+  space.radius = 0.15;
+  const std::vector<double> radii(100, 0.02);
+  double furthest = 0;
+  for (const Vec3& x : place_loose(radii, space, {}, 10, 5).centre)
+    furthest = std::max(furthest, x.head<2>().norm() + 0.02);
+  EXPECT_LE(furthest, 0.15);
+  EXPECT_GT(furthest, 0.13);
+}
+
+TEST(RoundWall, the_prism_has_the_circles_area_and_stays_near_it) {
+  const double r = 0.15;
+  for (const int sides : {8, 32, 64}) {
+    const Polyhedron prism = make_round_prism(r, 0.4, sides);
+    EXPECT_NEAR(mass_properties(prism).volume, M_PI * r * r * 0.4, 1e-14);
+    const double n2 = sides * sides, pi2 = M_PI * M_PI;
+    double corner = 0;
+    for (const Vec3& p : prism.vertices) corner = std::max(corner, p.head<2>().norm());
+    EXPECT_NEAR(corner / r - 1, pi2 / (3 * n2), 60 / (n2 * n2));
+    EXPECT_NEAR(1 - prism_apothem(r, sides) / r, pi2 / (6 * n2), 60 / (n2 * n2));
+  }
+}
+
+// Along any ray from the axis the wall begins where the prism's side is, without a gap.
+TEST(RoundWall, is_closed_and_as_far_from_the_axis_as_the_prism) {
+  const double r = 0.15;
+  const int sides = 16;
+  Bodies bodies;
+  ShapeTable shapes;
+  add_round_wall(bodies, shapes, {0.3, -0.2, 0}, r, -0.1, 0.5, 0.05, 0, sides);
+  ASSERT_EQ(bodies.size(), sides);
+  const auto in_wall = [&](const Vec3& p) {
+    for (int i = 0; i < bodies.size(); ++i) {
+      const ConvexView& v = shapes.view(bodies.shape[i]);
+      const Vec3 x = bodies.R[i].transpose() * (p - bodies.x[i]);
+      bool inside = true;
+      for (int f = 0; f < v.faces && inside; ++f)
+        inside = v.nx[f] * x.x() + v.ny[f] * x.y() + v.nz[f] * x.z() <= v.offset[f] + 1e-12;
+      if (inside) return true;
+    }
+    return false;
+  };
+  const double apothem = prism_apothem(r, sides);
+  for (int k = 0; k < 1000; ++k) {
+    const double angle = 2 * M_PI * k / 1000, pitch = 2 * M_PI / sides;
+    const double side = apothem / std::cos(angle - pitch * std::round(angle / pitch));
+    const Vec3 ray(std::cos(angle), std::sin(angle), 0), axis(0.3, -0.2, 0.2);
+    EXPECT_FALSE(in_wall(axis + (side - 1e-9) * ray)) << angle;
+    EXPECT_TRUE(in_wall(axis + (side + 1e-9) * ray)) << angle;
+    EXPECT_TRUE(in_wall(axis + (side + 0.04) * ray)) << angle;
+  }
+}
+
 TEST(Place, same_seed_same_places) {
   const Heap a = heap(box(0), true), b = heap(box(0), true);
   for (int i = 0; i < a.bodies.size(); ++i) EXPECT_EQ(a.bodies.x[i], b.bodies.x[i]);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "base/error.h"
 #include "coupling/edit.h"
+#include "dem/grain/random.h"
 #include "dem/packing/lower.h"
+#include "dem/packing/packed_grains.h"
 #include "dem/packing/place.h"
 #include "dem/surface/rigid.h"
 #include "fem/distributed_body.h"
@@ -48,28 +51,44 @@ double highest_grain(const Run& run, double low_x, double high_x, double low_y, 
   return top;
 }
 
-void pour_grains(Run& run, const std::vector<dem::GrainShape>& grains, bool beside) {
+void pour_grains(Run& run, const GrainBatch& batch, bool beside) {
   coupling::World& w = run.world;
+  const Layout& l = run.layout;
+  const ContainerScene& c = run.scene.container;
   dem::PlacementSpace space;
-  space.low = run.layout.low, space.high = run.layout.high;
-  space.period = run.layout.period;
+  space.low = l.low, space.high = l.high;
+  space.period = l.period;
+  if (c.shape == "cylinder") space.radius = dem::prism_apothem(0.5 * c.length, c.sides);
+  if (!batch.zone.empty()) space.zones = zone_rectangles(run.scene, l);
   dem::PlacedSpheres present;
-  if (beside) {
-    const Layout& l = run.layout;
+  if (beside)
     space.blocks.push_back(
         {{l.sleeper_low_x, l.sleeper_low_y, 0}, {l.sleeper_high_x, l.sleeper_high_y, 0}});
-    for (int i = 0; i < w.bodies.grains; ++i) {
-      present.centre.push_back(w.bodies.x[i]);
-      present.radius.push_back(w.shapes.shape(w.bodies.shape[i]).radius);
-    }
+  for (int i = 0; i < w.bodies.grains; ++i) {
+    present.centre.push_back(w.bodies.x[i]);
+    present.radius.push_back(w.shapes.shape(w.bodies.shape[i]).radius);
   }
+  // Fine and coarse grains come down in turn, or a mixed zone would be layered.
+  const int count = static_cast<int>(batch.grains.size());
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  if (!batch.zone.empty()) dem::Random(run.scene.grains.seed).shuffle(order);
   std::vector<double> radii;
-  for (const dem::GrainShape& g : grains) radii.push_back(g.radius);
+  std::vector<int> zone;
+  for (const int i : order) {
+    radii.push_back(batch.grains[i].radius);
+    if (!batch.zone.empty()) zone.push_back(batch.zone[i]);
+  }
   const dem::Placement p =
-      dem::place_loose(radii, space, present, 40, run.scene.grains.seed + (beside ? 77 : 0));
+      dem::place_loose(radii, space, present, 40, run.scene.grains.seed + (beside ? 77 : 0), zone);
+  dem::PackedGrains fine, coarse;
+  for (int k = 0; k < count; ++k)
+    (order[k] < batch.fine ? fine : coarse).add(batch.grains[order[k]], p.centre[k], p.turn[k]);
   const int before = w.bodies.grains;
-  coupling::add_grains(w, grains, p.centre, p.turn, run.scene.grains.density, kGrain);
-  dem::lower_grains(w.bodies, w.shapes, before, 0, run.layout.period, kClearance);
+  const double density = run.scene.grains.density;
+  coupling::add_grains(w, fine.shape, fine.centre, fine.turn, density, kGrain);
+  coupling::add_grains(w, coarse.shape, coarse.centre, coarse.turn, density, kCoarseGrain);
+  dem::lower_grains(w.bodies, w.shapes, before, 0, l.period, kClearance);
 }
 
 void add_walls(Run& run) {
@@ -83,9 +102,14 @@ void add_walls(Run& run) {
   const auto side = [&](unsigned which, int material) {
     dem::add_container(b, shapes, low, high, kThickness, material, which);
   };
-  side(dem::kLowX, c.half ? kMirror : kWall);
-  side(dem::kHighX, kWall);
-  if (!c.periodic) side(dem::kLowY | dem::kHighY, kWall);
+  if (c.shape == "cylinder") {
+    dem::add_round_wall(b, shapes, 0.5 * (l.low + l.high), 0.5 * c.length, low.z(), high.z(),
+                        kThickness, kWall, c.sides);
+  } else {
+    side(dem::kLowX, c.half ? kMirror : kWall);
+    side(dem::kHighX, kWall);
+    if (!c.periodic) side(dem::kLowY | dem::kHighY, kWall);
+  }
   dem::add_container(b, shapes, l.low, high, kThickness, kSubgrade, dem::kBase);
   run.actors.walls = b.size() - before;
   run.actors.floor = true;
@@ -101,8 +125,17 @@ void add_plate(Run& run) {
   }
   low.z() = highest_grain(run, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL) + kClearance;
   high.z() = low.z() + p.plate_thickness;
-  dem::add_box(run.world.bodies, run.world.shapes, low, high, kPlate,
-               p.plate_density * (high - low).prod(), dem::kMoveZ);
+  const ContainerScene& c = run.scene.container;
+  if (c.shape == "cylinder") {
+    const dem::Polyhedron disc =
+        dem::make_round_prism(0.5 * c.length - kPlateGap, p.plate_thickness, c.sides);
+    dem::add_rigid_body(run.world.bodies, run.world.shapes, disc, kPlate,
+                        p.plate_density * dem::mass_properties(disc).volume, {0, 0, low.z()},
+                        dem::Quat::Identity(), dem::kMoveZ);
+  } else {
+    dem::add_box(run.world.bodies, run.world.shapes, low, high, kPlate,
+                 p.plate_density * (high - low).prod(), dem::kMoveZ);
+  }
   run.actors.plate = true;
 }
 

@@ -1,11 +1,20 @@
 // Bringing bodies and structures of a scene into its world and taking them out again.
 #pragma once
 #include "apps/trackbed/simulation/stage.h"
+#include "apps/trackbed/simulation/zones.h"
 
 namespace trackbed::apps {
 
-/// Draws, places and adds grains: under the sleeper, or (`beside`) around it.
-void pour_grains(Run&, const std::vector<dem::GrainShape>& grains, bool beside);
+/// Places and adds grains on those there are: everywhere, or (`beside`) around the sleeper.
+void pour_grains(Run&, const GrainBatch&, bool beside);
+
+/// The grains of an exported packing (Packing/Start from). Throws InputError naming file and grain
+/// when one lies outside the container.
+void place_imported(Run&);
+
+/// Replaces the packed sample by its copies: Packing/Bays of them along the track, Packing/Layers
+/// upward. From here on the run has the scene's own width.
+void duplicate_sample(Run&);
 
 /// Walls (a mirror where the scene is halved, none at a seam) and the rigid floor.
 void add_walls(Run&);

@@ -1,6 +1,7 @@
 #include "apps/trackbed/simulation/layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trackbed::apps {
 
@@ -18,6 +19,8 @@ Layout make_layout(const Scene& s) {
   l.low = {c.half ? 0 : -0.5 * c.length, -0.5 * c.width, 0};
   l.high = {0.5 * c.length, 0.5 * c.width, 0};
   l.period = {0, c.periodic ? c.width : 0, 0};
+  const double round = c.shape == "cylinder" ? M_PI / 4 : 1;
+  l.area = round * (l.high.x() - l.low.x()) * (l.high.y() - l.low.y());
   l.share = c.half ? 0.5 : 1;
   l.sleeper_low_x = c.half ? 0 : -0.5 * s.sleeper.length;
   l.sleeper_high_x = 0.5 * s.sleeper.length;
@@ -34,9 +37,16 @@ Layout make_layout(const Scene& s) {
   }
   const double sleeper =
       s.sleeper.length * s.sleeper.width * std::min(c.fill_height, s.sleeper.height);
-  l.bed_mass = s.packing.bulk_density * below * c.width * l.share;
-  l.fill_mass = s.packing.bulk_density * std::max(0.0, beside * c.width - sleeper) * l.share;
+  l.bed_mass = s.packing.bulk_density * below * c.width * round * l.share;
+  l.fill_mass =
+      s.packing.bulk_density * std::max(0.0, beside * c.width * round - sleeper) * l.share;
   return l;
+}
+
+Layout sample_layout(const Scene& s) {
+  Scene sample = s;
+  sample.container.width /= s.packing.bays;
+  return make_layout(sample);
 }
 
 }  // namespace trackbed::apps

@@ -1,6 +1,5 @@
 #include "apps/trackbed/simulation/materials.h"
 
-#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -11,7 +10,10 @@
 namespace trackbed::apps {
 namespace {
 
-const std::vector<std::string> kNames{"grain", "wall", "mirror", "plate", "sleeper", "subgrade"};
+// In the order of Material; coarse grains (Zones) are grains.
+const std::vector<std::string> kNames{"grain", "grain",   "wall",    "mirror",
+                                      "plate", "sleeper", "subgrade"};
+const std::vector<std::string> kNamed{"grain", "wall", "mirror", "plate", "sleeper", "subgrade"};
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InputError("Contact/Pairs: " + what +
@@ -33,11 +35,12 @@ std::vector<std::string> pieces(const std::string& text, char at) {
   return out;
 }
 
-int material_named(const std::string& name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end())
-    refuse("there is no material '" + name + "' (" + join_names(kNames) + ")");
-  return static_cast<int>(found - kNames.begin());
+std::vector<int> materials_named(const std::string& name) {
+  std::vector<int> found;
+  for (int m = 0; m < kMaterials; ++m)
+    if (kNames[m] == name) found.push_back(m);
+  if (found.empty()) refuse("there is no material '" + name + "' (" + join_names(kNamed) + ")");
+  return found;
 }
 
 void change(dem::PairMaterial& m, const std::string& setting, const Scene& s, double softness) {
@@ -66,12 +69,13 @@ void apply_pairs(const Scene& s, double softness, dem::PairMaterials& table) {
     const auto colon = entry.find(':'), dash = entry.find('-');
     if (colon == std::string::npos || dash == std::string::npos || dash > colon)
       refuse("'" + entry + "' does not name two materials");
-    const int i = material_named(trimmed(entry.substr(0, dash)));
-    const int j = material_named(trimmed(entry.substr(dash + 1, colon - dash - 1)));
-    dem::PairMaterial m = table(i, j);
-    for (const std::string& setting : pieces(entry.substr(colon + 1), ','))
-      change(m, setting, s, softness);
-    table.set(i, j, m);
+    const auto settings = pieces(entry.substr(colon + 1), ',');
+    for (const int i : materials_named(trimmed(entry.substr(0, dash))))
+      for (const int j : materials_named(trimmed(entry.substr(dash + 1, colon - dash - 1)))) {
+        dem::PairMaterial m = table(i, j);
+        for (const std::string& setting : settings) change(m, setting, s, softness);
+        table.set(i, j, m);
+      }
   }
 }
 
@@ -80,8 +84,8 @@ void apply_pairs(const Scene& s, double softness, dem::PairMaterials& table) {
 dem::PairMaterials make_materials(const Scene& s, double modulus, double grain_friction) {
   dem::PairMaterials table(kMaterials);
   const double friction[kMaterials] = {
-      grain_friction,       s.container.friction, 0,
-      s.container.friction, s.sleeper.friction,   s.subgrade.friction};
+      grain_friction,       grain_friction,     s.container.friction, 0,
+      s.container.friction, s.sleeper.friction, s.subgrade.friction};
   dem::PairMaterial m;
   m.modulus = modulus;
   m.tangential_ratio = s.contact.tangential_ratio;

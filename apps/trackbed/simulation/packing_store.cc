@@ -7,6 +7,7 @@
 #include "apps/trackbed/hash.h"
 #include "apps/trackbed/simulation/saved_run.h"
 #include "base/error.h"
+#include "dem/packing/packing_file.h"
 
 namespace trackbed::apps {
 namespace {
@@ -15,8 +16,9 @@ constexpr const char* kVersion = "packing 4";  // raised when packings come out 
 
 // Parameters that a packing does not depend on, by section or by key.
 bool matters(const std::string& key) {
-  static const std::set<std::string> sections{"Container", "Grains",  "Gradation", "Contact",
-                                              "Packing",   "Sleeper", "Numerics",  "Subgrade"};
+  static const std::set<std::string> sections{"Container", "Grains",   "Gradation",
+                                              "Zones",     "Contact",  "Packing",
+                                              "Sleeper",   "Numerics", "Subgrade"};
   static const std::set<std::string> sleeper{
       "Sleeper/Length",   "Sleeper/Width",         "Sleeper/Height",     "Sleeper/Density",
       "Sleeper/Friction", "Sleeper/Pad thickness", "Sleeper/Pad density"};
@@ -27,7 +29,8 @@ bool matters(const std::string& key) {
   if (section == "Numerics")
     return key == "Numerics/Margin" || key == "Numerics/Packing margin" ||
            key == "Numerics/Time step";
-  return key != "Packing/Folder" && key != "Packing/Reuse" && key != "Contact/Local damping";
+  return key != "Packing/Folder" && key != "Packing/Reuse" && key != "Packing/Start from" &&
+         key != "Contact/Local damping";
 }
 
 }  // namespace
@@ -36,12 +39,15 @@ std::string packing_name(const Scene& scene) {
   std::string text = kVersion;
   for (const auto& [key, value] : scene.values)
     if (matters(key)) text += "\n" + key + "=" + value;
+  if (!scene.packing.start_from.empty())
+    for (const std::string& file : dem::packing_files(scene.packing.start_from))
+      text += "\n" + read_text(file);
   return hash_name(text);
 }
 
 KeptPacking kept_packing(const Scene& scene) {
   const std::string stem = scene.packing.folder + "/" + packing_name(scene);
-  return {stem + ".h5", stem + ".compaction.csv"};
+  return {stem + ".h5", stem + ".compaction.csv", stem + ".friction_path.csv"};
 }
 
 bool take_packing(Run& run, const std::string& folder) {
@@ -52,6 +58,8 @@ bool take_packing(Run& run, const std::string& folder) {
   load_run(kept.state, run);
   run.world.times = {};
   write_aside_then_rename(folder + "/compaction.csv", read_text(kept.compaction));
+  if (!run.path.empty() && std::filesystem::exists(kept.friction_path))
+    write_aside_then_rename(folder + "/friction_path.csv", read_text(kept.friction_path));
   return true;
 }
 
@@ -63,6 +71,8 @@ void keep_packing(Run& run, const std::string& folder) {
     throw RunError(run.scene.packing.folder +
                    ": cannot be made (Packing/Folder): " + failed.message());
   write_aside_then_rename(kept.compaction, read_text(folder + "/compaction.csv"));
+  if (!run.path.empty())
+    write_aside_then_rename(kept.friction_path, read_text(folder + "/friction_path.csv"));
   save_run(kept.state, run, {});
 }
 

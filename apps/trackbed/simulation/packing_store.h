@@ -9,9 +9,9 @@ namespace trackbed::apps {
 /// Name of the scene's packing: a hash over every parameter that it depends on.
 std::string packing_name(const Scene&);
 
-/// Files of a kept packing; `compaction` are the rows of its compaction.csv.
+/// Files of a kept packing; `compaction` are the rows of its compaction.csv, and so on.
 struct KeptPacking {
-  std::string state, compaction;
+  std::string state, compaction, friction_path;
 };
 KeptPacking kept_packing(const Scene&);
 

@@ -10,6 +10,7 @@
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/measures.h"
+#include "apps/trackbed/simulation/zones.h"
 #include "fem/modal_structure.h"
 
 namespace trackbed::apps {
@@ -168,6 +169,7 @@ void write_results(const Run& run, const std::string& folder, double wall) {
   write_summary(run, folder + "/summary.csv", wall);
   write_effects(run.scene, folder + "/effects.csv");
   if (run.scene.loading.push != "none") write_push(folder + "/history.csv", folder + "/push.csv");
+  if (run.scene.zones.use) write_zones(run, folder + "/zones.csv");
   if (run.stage.pressure_samples > 0) write_pressure(run, folder + "/pressure.csv");
 }
 

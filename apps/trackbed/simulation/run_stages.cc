@@ -14,11 +14,14 @@
 #include "base/error.h"
 #include "coupling/time_step.h"
 #include "dem/motion/monitor.h"
+#include "dem/packing/equilibrium.h"
+#include "dem/packing/packed_grains.h"
 
 namespace trackbed::apps {
 namespace {
 
 constexpr int kMonitorSteps = 100;     // between looks at limits and state
+constexpr int kWatchSteps = 10;        // between looks at the porosity of a bed to be stopped
 constexpr double kSampleTime = 5e-3;   // between lines of history in a stage without cycles [s]
 constexpr double kShareOfLimit = 0.9;  // of the measured limit at which the step is halved
 
@@ -86,7 +89,7 @@ void choose_step(Run& run, const Stage& stage) {
 void choose_laws(Run& run, const Stage& stage) {
   coupling::World& w = run.world;
   const ContactScene& c = run.scene.contact;
-  w.materials = make_materials(run.scene, stage.modulus, stage.friction);
+  w.materials = make_materials(run.scene, stage.modulus, run.stage.friction);
   w.pair_forces = dem::make_pair_forces(c.law, true);
   w.patch_forces = dem::make_patch_forces(c.law, true);
   if (has_shape(run.scene, "sphere") || has_shape(run.scene, "clump") ||
@@ -99,6 +102,8 @@ void choose_laws(Run& run, const Stage& stage) {
 }
 
 void enter(Run& run, const Stage& stage) {
+  run.stage.friction = stage.friction;
+  run.stage.stop_at = 0;
   stage.enter(run);
   choose_laws(run, stage);
   run.world.adaptive_damping = {};
@@ -203,7 +208,9 @@ bool at_rest(const Run& run, const Stage& stage) {
     weight += b.mass[i] * 9.81 * run.world.shapes.shape(b.shape[i]).sieve_size;
   }
   return run.world.time - run.stage.start > 0.05 && stage.until_quiet &&
-         kinetic < run.scene.packing.quiet * weight;
+         kinetic < run.scene.packing.quiet * weight &&
+         (stage.unbalanced <= 0 ||
+          dem::unbalanced_share(b, run.world.pairs, dem::StepContext{}.gravity) < stage.unbalanced);
 }
 
 // What is recorded at the trough and at the peak of a load cycle. True: the stage is over.
@@ -237,6 +244,10 @@ std::string detail(const Run& run) {
   if (run.actors.plate)
     std::snprintf(text, sizeof text, "cycle %d, density %.0f kg/m3", run.stage.cycles,
                   bed_density(run));
+  else if (!run.path.empty() && !run.actors.rigid_sleeper)
+    std::snprintf(
+        text, sizeof text, "friction %.3g, porosity %.4f", run.stage.friction,
+        dem::measure_bed(run.world.bodies, run.world.shapes, run.layout.area, 0).porosity);
   else if (run.stage.steps_per_cycle > 0)
     std::snprintf(text, sizeof text, "cycle %d, settlement %.3f mm", run.stage.cycles,
                   1e3 * run.stage.u_min);
@@ -311,6 +322,8 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
       s.steps += taken;
       const bool look = reached(s, kMonitorSteps, taken);
       if (look) monitor(run, stage, progress);
+      if (stage.watch && reached(s, kWatchSteps, taken) && stage.watch(run))
+        run.world.materials = make_materials(run.scene, stage.modulus, s.friction);
       if (sample_due(s, taken, run.scene)) {
         keep_grain_forces(run);
         recorder.sample(run, stage);
@@ -334,6 +347,8 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
       if (out.checkpoint_interval > 0 && since.count() > 60 * out.checkpoint_interval) checkpoint();
     }
     progress.finish(run.world.time, detail(run));
+    const bool again = stage.again && stage.again(run);
+    if (again) --k;
     s.index = first_index + k + 1;
     s.dt = 0, s.steps = 0;
     checkpoint();

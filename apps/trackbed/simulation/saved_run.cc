@@ -8,7 +8,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr int kFormat = 4;  // raised when the arrays change
+constexpr int kFormat = 5;  // raised when the arrays change
 
 template <class A>
 void visit(A& a, const std::string& name, bool& flag) {
@@ -22,6 +22,7 @@ void visit(A& a, Actors& t) {
   a("actors/walls", t.walls);
   visit(a, "actors/floor", t.floor);
   visit(a, "actors/plate", t.plate);
+  visit(a, "actors/sample", t.sample);
   visit(a, "actors/rigid_sleeper", t.rigid_sleeper);
   a("actors/sleeper_surface", t.sleeper_surface);
   a("actors/subgrade_surface", t.subgrade_surface);
@@ -33,6 +34,8 @@ template <class A>
 void visit(A& a, StageState& s) {
   a("stage/index", s.index), a("stage/steps", s.steps), a("stage/cycles", s.cycles);
   a("stage/halvings", s.halvings), a("stage/steps_per_cycle", s.steps_per_cycle);
+  a("stage/friction", s.friction), a("stage/stop_at", s.stop_at);
+  a("stage/stop_friction", s.stop_friction);
   a("stage/dt", s.dt), a("stage/start", s.start), a("stage/load", s.load), a("stage/u0", s.u0);
   a("stage/u_min", s.u_min), a("stage/load_min", s.load_min);
   a("stage/u_max", s.u_max), a("stage/load_max", s.load_max);
@@ -44,6 +47,24 @@ void visit(A& a, StageState& s) {
   a("stage/worst_closure", s.worst_closure), a("stage/exchange_gain", s.exchange_gain);
   a("stage/grain_force", s.grain_force);
   a("stage/pressure", s.pressure), a("stage/pressure_samples", s.pressure_samples);
+}
+
+template <class A>
+void visit(A& a, std::vector<PathPoint>& path) {
+  std::vector<int> from;
+  std::vector<double> values;  // seven a point
+  for (const PathPoint& p : path) {
+    from.push_back(p.point.from);
+    values.insert(values.end(), {p.point.friction, p.point.porosity, p.height, p.coordination,
+                                 p.unbalanced, p.time, p.point.stop_at});
+  }
+  a("path/from", from), a("path/values", values);
+  if (values.size() != 7 * from.size()) throw InputError("checkpoint: 'path' has another length");
+  path.clear();
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const double* v = &values[7 * k];
+    path.push_back({{from[k], v[0], v[1], v[6]}, v[2], v[3], v[4], v[5]});
+  }
 }
 
 template <class A>
@@ -71,6 +92,7 @@ void save_run(const std::string& file, Run& run, const RunRecords& records) {
   a("format", format);
   visit(a, run.actors);
   visit(a, run.stage);
+  visit(a, run.path);
   RunRecords copy = records;
   visit(a, copy);
   visit(a, run.world.times);
@@ -87,9 +109,11 @@ RunRecords load_run(const std::string& file, Run& run) {
                      std::to_string(kFormat));
   visit(a, run.actors);
   visit(a, run.stage);
+  visit(a, run.path);
   RunRecords records;
   visit(a, records);
   visit(a, run.world.times);
+  run.layout = run.actors.sample ? sample_layout(run.scene) : make_layout(run.scene);
   coupling::read_world(a, run.world);
   if (run.actors.sleeper_surface >= 0 || run.actors.subgrade_surface >= 0) {
     build_structures(run);

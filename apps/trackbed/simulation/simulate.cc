@@ -6,6 +6,7 @@
 
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/simulation/packing_store.h"
+#include "apps/trackbed/simulation/quasi_vibration.h"
 #include "apps/trackbed/simulation/results.h"
 #include "base/error.h"
 
@@ -15,7 +16,8 @@ namespace {
 Run make_run(const Scene& scene, int threads) {
   Run run;
   run.scene = scene;
-  run.layout = make_layout(scene);
+  run.actors.sample = scene.packing.bays > 1;
+  run.layout = sample_layout(scene);
   run.world.exchange.schedule = coupling::schedule_named(scene.numerics.exchange);
   run.world.exchange.grain_steps = scene.numerics.grain_steps;
   run.world.exchange.tolerance = scene.numerics.exchange_tolerance;
@@ -38,6 +40,7 @@ Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& 
 
   Run run = make_run(scene, options.threads);
   run.library_progress = [&](double share) { progress.portion("grain library ", share); };
+  run.folder = folder;
   const std::vector<Stage> packing = packing_stages(scene);
   const int packed = static_cast<int>(packing.size());
   RunRecords records;
@@ -61,6 +64,7 @@ Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& 
       return finish(Ending::stopped);
     recorder.flush();
     keep_packing(run, folder);
+    forget_trials(run);
   }
   if (options.packing_only) return finish(Ending::done);
   return finish(run_stages(run, loading_stages(scene), packed, folder, recorder, records.snapshots,

@@ -8,6 +8,7 @@
 #include "apps/trackbed/scene.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "coupling/world.h"
+#include "dem/packing/friction_path.h"
 
 namespace trackbed::apps {
 
@@ -16,9 +17,19 @@ namespace trackbed::apps {
 struct Actors {
   int walls = 0;  ///< fixed boxes; the last one is the floor while `floor` is set
   bool floor = false, plate = false, rigid_sleeper = false;
+  bool sample = false;                              ///< one of Packing/Bays stands for all so far
   int sleeper_surface = -1, subgrade_surface = -1;  ///< into World::surfaces, -1 = rigid
   double sleeper_base = 0;   ///< height of the sleeper's base when it was put in [m]
   double sleeper_start = 0;  ///< height of the rigid sleeper's centre then [m]
+};
+
+/// A bed at rest on the friction path of quasi-vibration.
+struct PathPoint {
+  dem::FrictionPoint point;
+  double height = 0;        ///< [m]
+  double coordination = 0;  ///< contacts per grain
+  double unbalanced = 0;    ///< force, over the mean contact force
+  double time = 0;          ///< at its end [s]
 };
 
 /// Where the run stands; part of every checkpoint.
@@ -28,10 +39,13 @@ struct StageState {
   int cycles = 0;    ///< whole load cycles done in this stage
   int halvings = 0;  ///< of the time step in this stage
   int steps_per_cycle = 0;
-  double dt = 0;     ///< [s]
-  double start = 0;  ///< time at its start [s]
-  double load = 0;   ///< on plate or sleeper now [N]
-  double u0 = 0;     ///< sleeper displacement that counts as zero [m]
+  double dt = 0;             ///< [s]
+  double start = 0;          ///< time at its start [s]
+  double friction = 0;       ///< grain on grain in this stage
+  double stop_at = 0;        ///< > 0: porosity at which a bed of quasi-vibration is stopped
+  double stop_friction = 0;  ///< by this friction
+  double load = 0;           ///< on plate or sleeper now [N]
+  double u0 = 0;             ///< sleeper displacement that counts as zero [m]
   double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
   double push_start = 0, push = 0;  ///< sleeper along the push: at its start, and since then [m]
   double push_force = 0;            ///< of the actuator [N]
@@ -53,7 +67,10 @@ struct Run {
   coupling::World world;
   Actors actors;
   StageState stage;
-  std::vector<dem::GrainShape> library;          ///< made when first needed
+  std::string folder;                           ///< results go here
+  std::vector<PathPoint> path;                  ///< of quasi-vibration, in the order they were made
+  std::vector<dem::GrainShape> library;         ///< made when first needed
+  std::vector<dem::GrainShape> coarse_library;  ///< of the zones outside, the same
   std::function<void(double)> library_progress;  ///< is told the share of it that is done
 };
 
@@ -67,14 +84,18 @@ struct Stage {
   double period = 0;    ///< of the load [s]; 0 = no cycles
   double peak = 0.5;    ///< when in a cycle the load is largest, as a share of the period
   bool until_quiet = false;
-  bool ledger = false;                             ///< opens the energy ledger at its start
-  std::function<void(Run&)> enter;                 ///< changes bodies and surfaces
+  double unbalanced = 0;  ///< then also the mean unbalanced force is below this share; 0 = any
+  bool ledger = false;    ///< opens the energy ledger at its start
+  std::function<void(Run&)> enter;  ///< changes bodies and surfaces, and stage.friction
   std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
-  std::function<double(double)> push;     ///< the actuator's place [m] at that time; empty: no push
+  std::function<double(double)> push;  ///< the actuator's place [m] at that time; empty: no push
   std::function<bool(Run&)> after_cycle;  ///< true: the stage is over
+  std::function<bool(Run&)> watch;        ///< often; true: stage.friction has changed
+  std::function<bool(Run&)> again;        ///< once it is over; true: it is entered again
 };
 
-/// Deposit, tamping, plate off, sleeper and ballast beside it, hardening to the loading modulus.
+/// Deposit, tamping or quasi-vibration, layers, plate off, sleeper and ballast beside it, hardening
+/// to the loading modulus.
 std::vector<Stage> packing_stages(const Scene&);
 
 /// Seating under the least load, then the load cycles, then the push if there is one.

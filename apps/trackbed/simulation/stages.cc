@@ -2,18 +2,13 @@
 #include <cmath>
 
 #include "apps/trackbed/simulation/actors.h"
-#include "apps/trackbed/simulation/grains.h"
+#include "apps/trackbed/simulation/quasi_vibration.h"
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/waveform.h"
 
 namespace trackbed::apps {
 namespace {
-
-const std::vector<dem::GrainShape>& library(Run& run) {
-  if (run.library.empty()) run.library = make_grain_library(run.scene, run.library_progress);
-  return run.library;
-}
 
 Stage packing_stage(const Scene& s, const char* name) {
   Stage stage;
@@ -34,14 +29,31 @@ Stage packing_stage(const Scene& s, const char* name) {
 std::vector<Stage> packing_stages(const Scene& s) {
   std::vector<Stage> stages;
 
+  const bool vibrated = s.packing.method == "quasi_vibration";
+  const bool layered = s.packing.layers * s.packing.bays > 1;
   Stage deposit = packing_stage(s, "deposit");
+  if (vibrated) deposit.friction = s.packing.friction_path.front();
+  if (vibrated) deposit.unbalanced = s.packing.unbalanced;
   deposit.enter = [](Run& run) {
-    pour_grains(run, draw_grains(run.scene, library(run), run.layout.bed_mass, 0), false);
+    const double mass = run.layout.bed_mass / run.scene.packing.layers;
+    if (!run.scene.packing.start_from.empty())
+      place_imported(run);
+    else
+      pour_grains(run, draw_batch(run, mass, 0, false), false);
     add_walls(run);
   };
   stages.push_back(deposit);
 
-  if (s.packing.plate_cycles > 0) {
+  if (vibrated) {
+    Stage path = packing_stage(s, "quasi-vibration");
+    path.unbalanced = s.packing.unbalanced;
+    path.enter = begin_trial;
+    path.watch = stop_bed;
+    path.again = trial_follows;
+    stages.push_back(path);
+  }
+
+  if (s.packing.method == "tamping" && s.packing.plate_cycles > 0) {
     Stage tamping = packing_stage(s, "tamping");
     tamping.until_quiet = false;
     tamping.period = 1 / s.packing.plate_frequency;
@@ -58,12 +70,25 @@ std::vector<Stage> packing_stages(const Scene& s) {
     stages.push_back(tamping);
   }
 
+  if (layered) {
+    Stage seams = packing_stage(s, "layers");
+    seams.unbalanced = s.packing.unbalanced;
+    seams.enter = [](Run& run) {
+      if (run.actors.plate) remove_moving_body(run);
+      duplicate_sample(run);
+      // The friction that made the sample makes the seams as dense.
+      if (!run.path.empty()) run.stage.friction = bed_friction(run);
+    };
+    stages.push_back(seams);
+  }
+
   Stage fill = packing_stage(s, "sleeper in");
+  if (vibrated) fill.friction = s.grains.friction;
   fill.enter = [](Run& run) {
     if (run.actors.plate) remove_moving_body(run);
     trim_shoulders(run);
     if (run.layout.fill_mass > 0)
-      pour_grains(run, draw_grains(run.scene, library(run), run.layout.fill_mass, 1), true);
+      pour_grains(run, draw_batch(run, run.layout.fill_mass, 1, true), true);
     add_rigid_sleeper(run);
   };
   stages.push_back(fill);
@@ -151,8 +176,7 @@ double bed_height(const Run& run) {
 double bed_density(const Run& run) {
   double mass = 0;
   for (int i = 0; i < run.world.bodies.grains; ++i) mass += run.world.bodies.mass[i];
-  const dem::Vec3 size = run.layout.high - run.layout.low;
-  return mass / (size.x() * size.y() * bed_height(run));
+  return mass / (run.layout.area * bed_height(run));
 }
 
 }  // namespace trackbed::apps

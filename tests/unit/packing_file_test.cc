@@ -1,0 +1,154 @@
+// Packings to files and back: the same solids to 1e-12; malformed files in one line.
+#include "dem/packing/packing_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "dem/grain/library.h"
+#include "dem/grain/off_io.h"
+#include "dem/grain/random.h"
+
+namespace trackbed::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("trackbed_packing_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string file(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name) << text;
+    return (path / name).string();
+  }
+};
+
+PackedGrains sample() {
+  PackedGrains g;
+  LibraryParameters p;
+  p.count = 30;
+  Random random(5);
+  for (const GrainShape& shape : make_library(p)) {
+    const Quat q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                 random.uniform(-1, 1));
+    const GrainShape grain = scaled(shape, random.uniform(.02, .06));
+    g.add(grain, 3 * random.direction(), q.normalized());
+    g.add(grain, 3 * random.direction(), q.normalized());  // shapes may be shared
+  }
+  return g;
+}
+
+std::string write_csv(const Folder& folder, const PackedGrains& g) {
+  const DistinctShapes d = distinct_shapes(g);
+  fs::create_directories(folder.path / "p_shapes");
+  for (std::size_t k = 0; k < d.first_of.size(); ++k)
+    write_off((folder.path / "p_shapes" / (std::to_string(k) + ".off")).string(),
+              g.shape[d.first_of[k]].body);
+  return folder.file("p.csv", packing_csv_text(g, d.shape_of));
+}
+
+// Corners in the world of each grain, whatever frame it is kept in: every one of `a` is one of `b`.
+double corner_distance(const PackedGrains& a, const PackedGrains& b, int i) {
+  double worst = 0;
+  for (const Vec3& p : a.shape[i].body.vertices) {
+    double nearest = 1;
+    for (const Vec3& q : b.shape[i].body.vertices)
+      nearest =
+          std::min(nearest, (a.centre[i] + a.turn[i] * p - b.centre[i] - b.turn[i] * q).norm());
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+void expect_same(const PackedGrains& a, const PackedGrains& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (int i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a.shape[i].body.vertices.size(), b.shape[i].body.vertices.size());
+    ASSERT_EQ(a.shape[i].body.faces.size(), b.shape[i].body.faces.size());
+    EXPECT_LT(corner_distance(a, b, i), 1e-12);
+    EXPECT_LT((a.centre[i] - b.centre[i]).norm(), 1e-12);
+    EXPECT_NEAR(b.shape[i].volume / a.shape[i].volume, 1, 1e-12);
+    EXPECT_LT((b.shape[i].inertia - a.shape[i].inertia).norm(), 1e-12 * a.shape[i].inertia.norm());
+  }
+}
+
+TEST(PackingFile, csv_and_back) {
+  const Folder folder;
+  const PackedGrains g = sample();
+  EXPECT_EQ(distinct_shapes(g).first_of.size(), 30u);
+  const std::string file = write_csv(folder, g);
+  const PackedGrains back = read_packing(file);
+  expect_same(g, back);
+  for (int i = 0; i < g.size(); ++i) EXPECT_EQ(back.shape[i].sieve_size, g.shape[i].sieve_size);
+  EXPECT_EQ(packing_files(file).size(), 31u);
+  EXPECT_EQ(packing_files(file)[0], file);
+}
+
+TEST(PackingFile, off_and_back) {
+  const Folder folder;
+  const PackedGrains g = sample();
+  expect_same(g, read_packing(folder.file("p.off", packing_off_text(g))));
+}
+
+// Cubes face on face have corners in one place and still are eight.
+TEST(PackingFile, grains_that_touch_are_told_apart) {
+  const Folder folder;
+  PackedGrains g;
+  const GrainShape cube = make_grain_shape(make_box({.1, .1, .1}));
+  for (int i = 0; i < 8; ++i) g.add(cube, .1 * Vec3(i % 2, i / 2 % 2, i / 4), cube.turn);
+  expect_same(g, read_packing(folder.file("p.off", packing_off_text(g))));
+}
+
+TEST(PackingFile, vtu_holds_every_corner_and_face_once) {
+  const PackedGrains g = sample();
+  const std::string text = packing_vtu_text(g);
+  std::size_t corners = 0;
+  for (const GrainShape& s : g.shape) corners += s.body.vertices.size();
+  EXPECT_NE(text.find("NumberOfPoints=\"" + std::to_string(corners) + "\" NumberOfCells=\"60\""),
+            std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+std::string complaint(const std::string& file) {
+  try {
+    read_packing(file);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(PackingFile, malformed_files_are_named) {
+  const Folder folder;
+  const std::string good = write_csv(folder, sample());
+  EXPECT_EQ(complaint(good), "");
+  std::ifstream in(good);
+  std::string header, first;
+  std::getline(in, header), std::getline(in, first);
+  const auto csv = [&](const std::string& text) { return folder.file("bad.csv", text); };
+  EXPECT_NE(complaint(csv("grain,shape\n0,0\n")).find("column 'x_m'"), std::string::npos);
+  EXPECT_NE(complaint(csv(header + "\n")).find("no grains"), std::string::npos);
+  EXPECT_NE(complaint(csv(header + "\n0,0,nan,0,0,1,0,0,0,0,0\n")).find("line 2: x_m"),
+            std::string::npos);
+  EXPECT_NE(complaint(csv(header + "\n0,0,0,0,0,2,0,0,0,0,0\n")).find("quaternion"),
+            std::string::npos);
+  EXPECT_NE(complaint(csv(header + "\n" + first + "\n")).find("bad_shapes/0.off"),
+            std::string::npos);
+  EXPECT_NE(complaint((folder.path / "none.csv").string()).find("cannot be opened"),
+            std::string::npos);
+  EXPECT_NE(complaint(folder.file("p.txt", "x")).find("unknown kind"), std::string::npos);
+  // A face is missing from the second of two tetrahedra.
+  const std::string tetrahedron = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::string open = "OFF\n8 7 0\n" + tetrahedron + tetrahedron +
+                           "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n";
+  const std::string text = complaint(folder.file("open.off", open));
+  EXPECT_NE(text.find("open.off: solid 2"), std::string::npos) << text;
+  EXPECT_NE(text.find("open"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trackbed::dem
