@@ -58,7 +58,13 @@ bool centre_in(const PlacedGrain& g, const Vec3& period, const MeasuredRegion& r
 
 std::shared_ptr<const GrainOutline> outline_of(const GrainShape& s) {
   auto outline = std::make_shared<GrainOutline>();
-  outline->bodies.push_back(s.body);
+  if (s.parts.empty()) outline->bodies.push_back(s.body);
+  for (const ConvexPart& part : s.parts) {
+    if (part.core.faces.empty())
+      outline->spheres.push_back({part.core.vertices.front(), part.radius});
+    else  // a crown is too small to be seen
+      outline->bodies.push_back(rounded_outline(part.core, part.radius));
+  }
   return outline;
 }
 

@@ -8,9 +8,11 @@
 #include "dem/contact/overlap.h"
 #include "dem/grain/dilated.h"
 #include "dem/grain/library.h"
+#include "dem/grain/parts.h"
 #include "dem/grain/random.h"
 #include "dem/packing/measure.h"
 #include "dem/packing/section.h"
+#include "dem/surface/rigid.h"
 
 namespace trackbed::dem {
 namespace {
@@ -25,6 +27,20 @@ PlacedGrain of_bodies(std::vector<Polyhedron> bodies) {
   PlacedGrain g;
   g.outline = std::make_shared<GrainOutline>(GrainOutline{std::move(bodies), {}});
   return g;
+}
+
+double area(const std::vector<Vec2>& p) {
+  double twice = 0;
+  for (size_t k = 0; k < p.size(); ++k) {
+    const Vec2 &a = p[k], &b = p[(k + 1) % p.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+Polyhedron moved(Polyhedron body, const Vec3& shift) {
+  for (Vec3& v : body.vertices) v += shift;
+  return body;
 }
 
 Quat any_turn(Random& random) {
@@ -200,6 +216,25 @@ struct Lattice {
   }
 };
 
+TEST(Measure, ShapesOfParts) {
+  // Each grain half in the region by symmetry of its own body: a ball, a dilated cube, two cubes.
+  const GrainShape shapes[] = {
+      sphere_shape(0.5), as_grain(make_dilated_shape({make_box({1, 1, 1}), 0.2})),
+      union_shape({make_box({1, 1, 1}), moved(make_box({1, 1, 1}), {1, 0, 0})})};
+  for (const GrainShape& s : shapes) {
+    ShapeTable table;
+    Bodies bodies;
+    add_grain(bodies, table, table.add(s), 0, 2000, Vec3(0, 0, 0), Quat::Identity());
+    const auto grains = placed_grains(bodies, table);
+    const RegionMeasure m = measure(grains, {}, Vec3::Zero(), box_region({-3, -3, 0}, {3, 3, 3}));
+    EXPECT_NEAR(m.solid_volume, s.volume / 2, 1e-3 * s.volume);
+    EXPECT_NEAR(m.mass, 2000 * m.solid_volume, 1e-6 * m.mass);
+    double all = 0;
+    for (const SectionPiece& p : section(grains, Vec3::Zero(), {2, 0})) all += area(p.outline);
+    EXPECT_GT(all, 0.7);
+  }
+}
+
 TEST(Measure, LatticeOfCubes) {
   const Lattice l(4);
   const RegionMeasure m =
@@ -230,15 +265,6 @@ TEST(Measure, ThreadsDoNotMatterAndBadRegionsAreRefused) {
   const Lattice l(2);
   EXPECT_THROW(measure_layers(l.grains, {}, Vec3::Zero(), box_region({0, 0, 0}, {1, 1, 1}), 0),
                InputError);
-}
-
-double area(const std::vector<Vec2>& p) {
-  double twice = 0;
-  for (size_t k = 0; k < p.size(); ++k) {
-    const Vec2 &a = p[k], &b = p[(k + 1) % p.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return twice / 2;
 }
 
 TEST(Section, AreasIntegrateToTheVolume) {
