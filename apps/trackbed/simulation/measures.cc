@@ -59,9 +59,11 @@ dem::MeasuredRegion measured_region(const Run& run) {
     if (run.scene.container.shoulder_width > 0)
       low.x() = run.layout.sleeper_low_x, high.x() = run.layout.sleeper_high_x;
   }
-  if (m.radius == 0) return dem::box_region(low, high);
+  const bool cylinder = m.low.empty() && run.scene.container.shape == "cylinder";
+  const double radius = m.radius == 0 && cylinder ? 0.5 * run.scene.container.length : m.radius;
+  if (radius == 0) return dem::box_region(low, high);
   const dem::Vec2 middle = 0.5 * (low + high).head<2>();
-  return dem::cylinder_region(middle, m.radius, low.z(), high.z());
+  return dem::cylinder_region(middle, radius, low.z(), high.z());
 }
 
 void write_measures(const Run& run, const std::string& folder) {

@@ -5,6 +5,7 @@
 
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/hash.h"
+#include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/saved_run.h"
 #include "base/error.h"
 #include "dem/packing/packing_file.h"
@@ -42,6 +43,8 @@ std::string packing_name(const Scene& scene) {
   if (!scene.packing.start_from.empty())
     for (const std::string& file : dem::packing_files(scene.packing.start_from))
       text += "\n" + read_text(file);
+  // Stones by what they are, not by where.
+  for (const std::string& file : library_parameters(scene).files) text += "\n" + read_text(file);
   return hash_name(text);
 }
 
