@@ -1,0 +1,153 @@
+// fuzz_pairs SECONDS [--seed N] [--output DIR]: random pairs of convex grains, degenerate on
+// purpose (lattice corners, coplanar faces, needles, grazing and full overlaps), each judged
+// against CGAL's exact overlap, by symmetry of the two bodies, and by the law's force as gradient
+// of its energy. An offender is written to DIR as two OFF files, the second where it stood. Exit 1
+// if there is one.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "dem/grain/off_io.h"
+#include "tests/verification/exact_overlap.h"
+
+namespace trackbed::dem::test {
+namespace {
+
+constexpr double kVolume = 1e-9;    // relative; flat overlaps on the lattice keep this
+constexpr double kSymmetry = 1e-9;  // of the force
+constexpr double kGradient = 1e-3;  // of the force; differences of an energy that has kinks
+
+struct Found {
+  Polyhedron a, b;  ///< both where they stand
+  const char* what;
+  double value;
+};
+
+double on_lattice(Random& random, int range) {
+  return (double(random.below(2 * range + 1)) - range) / 8;
+}
+
+Polyhedron any_body(Random& random) {
+  while (true) {
+    try {
+      const unsigned kind = random.below(4);
+      if (kind == 0) return random_hull(random, 5 + static_cast<int>(random.below(16)));
+      std::vector<Vec3> points;
+      const int count = 5 + static_cast<int>(random.below(8));
+      for (int i = 0; i < count; ++i)
+        points.emplace_back(on_lattice(random, 4), on_lattice(random, 4), on_lattice(random, 4));
+      if (kind == 2)  // needles and flakes, still exact
+        for (Vec3& p : points) p.x() /= 64, p.y() /= random.below(2) ? 64 : 1;
+      if (kind == 3)  // nearly coplanar, nearly equal corners
+        for (Vec3& p : points) p += 1e-9 * random.direction();
+      return convex_hull(points);
+    } catch (const std::exception&) {
+    }
+  }
+}
+
+Polyhedron moved(Polyhedron body, const Vec3& x) {
+  for (Vec3& p : body.vertices) p += x;
+  return body;
+}
+
+Vec3 any_place(Random& random) {
+  const unsigned kind = random.below(3);
+  if (kind == 0) return random.uniform(0, 1.2) * random.direction();
+  const Vec3 lattice(on_lattice(random, 4), on_lattice(random, 4), on_lattice(random, 4));
+  return kind == 1 ? lattice : Vec3(lattice + 1e-9 * random.direction());
+}
+
+Contact contact(const Polyhedron& a, const Polyhedron& b, bool& apart) {
+  ShapeTable table;
+  table.add(as_is(a)), table.add(as_is(b));
+  const Pose still{Mat3::Identity(), Vec3::Zero()};
+  Vec3 axis = Vec3::Zero();
+  apart = separating_axis(table.view(0), still, table.view(1), still, axis) > 0;
+  return apart ? Contact() : evaluate(table.view(0), still, table.view(1), still, axis);
+}
+
+// The pair at fault, or nothing: `what` is null.
+Found judge(const Polyhedron& a, const Polyhedron& b, long& overlapping) {
+  const Found fine{a, b, nullptr, 0};
+  bool apart = false;
+  const Contact c = contact(a, b, apart);
+  if (!c.touching) return fine;
+  const Pose still{Mat3::Identity(), Vec3::Zero()};
+  std::vector<Plane> all = planes(a, still), more = planes(b, still);
+  all.insert(all.end(), more.begin(), more.end());
+  const Exact exact = exact_overlap(all, c.centroid);
+  // Overlaps thinner than rounding of the corners have no volume to compare.
+  const double size = std::cbrt(std::max(c.volume, 0.0));
+  if (!(c.volume > 1e-12) || c.depth < 1e-6 * size) return fine;
+  ++overlapping;
+  if (exact.volume < 0) return {a, b, "the centroid is not inside of both", c.volume};
+  const double off = std::abs(c.volume / exact.volume - 1);
+  if (!(off < kVolume)) return {a, b, "volume against exact arithmetic", off};
+  const double place = (c.centroid - exact.centroid).norm() / std::cbrt(exact.volume);
+  if (!(place < 1e-6)) return {a, b, "centroid against exact arithmetic", place};
+  const double force = c.force_a.norm();
+  const double sum = (c.force_a + c.force_b).norm() / force;
+  if (!(sum < kSymmetry)) return {a, b, "forces of the two bodies", sum};
+  const Contact swapped = contact(b, a, apart);
+  const double other = (swapped.force_a - c.force_b).norm() / force;
+  if (!(other < 1e-7)) return {a, b, "force with the bodies exchanged", other};
+  const double h = 1e-5 * c.depth;
+  for (int k = 0; k < 3; ++k) {
+    const Contact up = contact(moved(a, h * Vec3::Unit(k)), b, apart);
+    const Contact down = contact(moved(a, -h * Vec3::Unit(k)), b, apart);
+    const double gap = std::abs(c.force_a(k) + (up.energy - down.energy) / (2 * h)) / force;
+    if (!(gap < kGradient)) return {a, b, "force as the energy's gradient", gap};
+  }
+  return fine;
+}
+
+int fuzz(double seconds, std::uint64_t seed, const std::string& folder) {
+  Random random(seed);
+  const auto begun = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  };
+  long pairs = 0, overlapping = 0;
+  int offenders = 0;
+  for (; elapsed() < seconds && offenders < 20; ++pairs) {
+    const Polyhedron a = any_body(random);
+    const Polyhedron b = moved(random.below(8) ? any_body(random) : a, any_place(random));
+    const Found found = judge(a, b, overlapping);
+    if (!found.what) continue;
+    ++offenders;
+    std::filesystem::create_directories(folder);
+    const std::string stem =
+        folder + "/seed_" + std::to_string(seed) + "_pair_" + std::to_string(pairs);
+    write_off(stem + "_a.off", found.a), write_off(stem + "_b.off", found.b);
+    std::printf("%s: off by %.3g, kept as %s_a.off and _b.off\n", found.what, found.value,
+                stem.c_str());
+  }
+  std::printf("seed %llu: %ld pairs, %ld overlapping, %d offenders, %.0f s\n",
+              static_cast<unsigned long long>(seed), pairs, overlapping, offenders, elapsed());
+  return offenders > 0;
+}
+
+}  // namespace
+}  // namespace trackbed::dem::test
+
+int main(int argc, char** argv) {
+  double seconds = 0;
+  std::uint64_t seed = 1;
+  std::string folder = "results/fuzz";
+  for (int k = 1; k < argc; ++k) {
+    if (!std::strcmp(argv[k], "--seed") && k + 1 < argc)
+      seed = std::strtoull(argv[++k], nullptr, 10);
+    else if (!std::strcmp(argv[k], "--output") && k + 1 < argc)
+      folder = argv[++k];
+    else
+      seconds = std::strtod(argv[k], nullptr);
+  }
+  if (!(seconds > 0)) {
+    std::fprintf(stderr, "fuzz_pairs SECONDS [--seed N] [--output DIR]: a time is needed\n");
+    return 2;
+  }
+  return trackbed::dem::test::fuzz(seconds, seed, folder);
+}
