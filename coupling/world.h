@@ -60,7 +60,7 @@ struct World {
   dem::Candidates candidates;
   dem::Pairs pairs;
   dem::PairForces pair_forces;
-  dem::RoundForces round_forces;  ///< may stay empty where all bodies are polyhedra
+  dem::RoundForces round_forces;       ///< may stay empty where all bodies are polyhedra
   dem::ResistanceSettings resistance;  ///< of grains and rigid bodies; off unless set
   bool adaptive = false;               ///< Shao's damping after each step
   dem::AdaptiveDamping adaptive_damping;

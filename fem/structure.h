@@ -37,8 +37,8 @@ struct SurfaceMesh {
 
 /// Energies [J] since the start. Works are sums of ½(F_n + F_{n+1})·(u_{n+1} − u_n).
 /// work_loads + work_surface + at_start = kinetic + strain + gravity + dissipated_damping +
-/// dissipated_material + numerical, where `numerical` (what the time integration took out, or put in) is what remains:
-/// zero to round-off for Newmark's average acceleration.
+/// dissipated_material + numerical, where `numerical` (what the time integration took out, or put
+/// in) is what remains: zero to round-off for Newmark's average acceleration.
 struct StructureEnergy {
   double kinetic = 0, strain = 0, gravity = 0;
   double work_loads = 0, work_surface = 0;

@@ -24,6 +24,8 @@ target_include_directories(settled_bed PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/benchm
 target_link_libraries(settled_bed PUBLIC trackbed_dem)
 add_executable(motion_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/motion_benchmark.cc)
 target_link_libraries(motion_benchmark PRIVATE settled_bed)
+add_executable(bed_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/bed_benchmark.cc)
+target_link_libraries(bed_benchmark PRIVATE settled_bed)
 
 # The bed of the benchmarks, in tests.
 trackbed_test(bed_threads hard settled_bed)

@@ -227,9 +227,10 @@ void add_sleeper(Section s) {
       "Type", "block", sleeper_types(),
       "sets sizes, Density, Modulus, Seats and Elements that the scene does not give; block sets "
       "nothing");
-  s.choice("Model", "elastic", {"rigid", "elastic", "beam", "auto"},
-           "six equations of a rigid body, an FE body, or a Timoshenko beam; auto: FE where a beam of "
-           "this length bends on a stiff bed");
+  s.choice(
+      "Model", "elastic", {"rigid", "elastic", "beam", "auto"},
+      "six equations of a rigid body, an FE body, or a Timoshenko beam; auto: FE where a beam of "
+      "this length bends on a stiff bed");
   s.choice("Reduction", "none", reductions(),
            "of an elastic sleeper to modes: modal is cheapest, condensed keeps every static load");
   s.integer("Modes", "20", 1, 1000, "lowest elastic modes of a reduced sleeper");

@@ -245,8 +245,7 @@ void make_absolute(std::vector<SceneEntry>& entries) {
   namespace fs = std::filesystem;
   const std::set<std::string> files{"Mesh", "Stones", "Table", "Start from"};
   for (auto& entry : entries)
-    if (files.count(entry.key) > 0 &&
-        !entry.value.empty() && fs::path(entry.value).is_relative()) {
+    if (files.count(entry.key) > 0 && !entry.value.empty() && fs::path(entry.value).is_relative()) {
       const auto folder = entry.line > 0 ? fs::path(entry.file).parent_path() : fs::path();
       entry.value = fs::absolute(folder / entry.value).lexically_normal().string();
     }

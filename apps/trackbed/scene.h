@@ -131,9 +131,9 @@ struct SubgradeScene {
   double element_size;  ///< largest edge of an element [m]
   int order;            ///< polynomial degree of the elements
   double friction;
-  std::string reduction;  ///< "none" | "condensed" | "modal"
-  int modes;              ///< of a reduced one
-  std::string absorbing;  ///< "none" | "sides" | "bottom" | "all"
+  std::string reduction;                      ///< "none" | "condensed" | "modal"
+  int modes;                                  ///< of a reduced one
+  std::string absorbing;                      ///< "none" | "sides" | "bottom" | "all"
   std::map<std::string, std::string> values;  ///< of the model's own section: key to text
 };
 

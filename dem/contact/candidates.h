@@ -2,7 +2,8 @@
 // a skin; rigid bodies (walls, plate, sleeper: large, few) are tested against all grains by their
 // boxes and face planes. Boxes of angular grains meet long before the grains do: pairs that an axis
 // keeps apart by more than the skin are dropped, two of three in a dense bed. Bodies of several
-// parts hand over to them (part_pairs). The list holds until some body's surface may have travelled half a skin.
+// parts hand over to them (part_pairs). The list holds until some body's surface may have travelled
+// half a skin.
 //
 // Travel of body i [m]: sum over all steps of |v| dt + radius |turn|, an upper bound of the way of
 // its points. It only grows; the same number tells each pair when to look again (Pairs::wake).

@@ -35,8 +35,8 @@ Polyhedron convex_hull(const std::vector<Vec3>& points, double tolerance = 1e-9)
 /// A convex part of a grain: all points within r(x) of a point x of its core. A sphere has a point
 /// as core (one vertex, no face), a plain polyhedron radius 0, a dilated polyhedron both.
 ///   r(x) = radius + crown/2 (mean_square - |x|^2)                                        [m]
-/// `crown` > 0 lets r grow a little towards the middle of faces, as rollers are crowned: the deepest
-/// point of a contact is then unique and moves smoothly when faces tilt through parallel.
+/// `crown` > 0 lets r grow a little towards the middle of faces, as rollers are crowned: the
+/// deepest point of a contact is then unique and moves smoothly when faces tilt through parallel.
 struct ConvexPart {
   Polyhedron core;         ///< body frame [m]
   double radius = 0;       ///< [m]
@@ -51,10 +51,10 @@ struct ConvexPart {
 struct GrainShape {
   Polyhedron body;                ///< convex; the grain itself, or what encloses its parts
   std::vector<ConvexPart> parts;  ///< what touches; empty: `body` does
-  double volume = 0;            ///< [m3]
-  Vec3 inertia = Vec3::Zero();  ///< principal moments at density 1 [m5]
-  double radius = 0;            ///< of the bounding sphere about the centroid [m]
-  double sieve_size = 0;        ///< least square hole it passes [m]; 0 = not sized
+  double volume = 0;              ///< [m3]
+  Vec3 inertia = Vec3::Zero();    ///< principal moments at density 1 [m5]
+  double radius = 0;              ///< of the bounding sphere about the centroid [m]
+  double sieve_size = 0;          ///< least square hole it passes [m]; 0 = not sized
   // Pose of this principal frame in the frame of the polyhedron it was made from.
   Vec3 origin = Vec3::Zero();
   Quat turn = Quat::Identity();

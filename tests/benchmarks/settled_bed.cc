@@ -40,8 +40,6 @@ void settle(Scene& s, double modulus, double friction, double damping, double ti
   s.prepare();
   s.context.dt = .4 * expected_limit(s.bodies, s.shapes, s.materials, {}).dt;
   s.run(s.time + time);
-  std::fprintf(stderr, "E %g t %g dt %g KE %g touching %d\n", modulus, s.time, s.context.dt,
-               s.now().kinetic, count_contacts(s.pairs));
 }
 
 // Grains only, loose, in a periodic column as high as wide once settled.
@@ -67,7 +65,7 @@ void add_base(Scene& s) {
   add_container(s.bodies, s.shapes, Vec3::Zero(), p + Vec3(0, 0, 1), 3 * p.x(), 0, kBase);
 }
 
-// Places, turns and shapes of the grains; contacts find their forces anew.
+// Place, turn and radius (to know the grain again) of each; contacts find their forces anew.
 std::string file_name(const BedSettings& b) {
   char name[80];
   std::snprintf(name, sizeof name, "/bed_%d_%.0e_%.2f.txt", b.grains, b.modulus, b.friction);
@@ -80,23 +78,24 @@ void write_places(const Scene& s, const std::string& name) {
   for (int i = 0; i < s.bodies.grains; ++i) {
     const Vec3& x = s.bodies.x[i];
     const Quat& q = s.bodies.q[i];
-    std::fprintf(file, "%.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", x.x(), x.y(), x.z(), q.w(),
-                 q.x(), q.y(), q.z());
+    std::fprintf(file, "%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", x.x(), x.y(), x.z(),
+                 q.w(), q.x(), q.y(), q.z(), s.shapes.shape(s.bodies.shape[i]).radius);
   }
   if (std::fclose(file) == 0) std::rename((name + ".new").c_str(), name.c_str());
 }
 
+// False when the file is missing or of other grains.
 bool read_places(Scene& s, const std::string& name) {
   std::ifstream file(name);
-  std::vector<Vec3> x;
-  std::vector<Quat> q;
-  double v[7];
-  while (file >> v[0] >> v[1] >> v[2] >> v[3] >> v[4] >> v[5] >> v[6])
-    x.push_back({v[0], v[1], v[2]}), q.push_back(Quat(v[3], v[4], v[5], v[6]));
-  if (static_cast<int>(x.size()) != s.bodies.grains) return false;
-  for (int i = 0; i < s.bodies.grains; ++i) {
-    s.bodies.x[i] = x[i], s.bodies.q[i] = q[i];
-    s.bodies.R[i] = q[i].toRotationMatrix();
+  Bodies& b = s.bodies;
+  for (int i = 0; i < b.grains; ++i) {
+    double v[8];
+    for (double& value : v)
+      if (!(file >> value)) return false;
+    if (v[7] != s.shapes.shape(b.shape[i]).radius) return false;
+    b.x[i] = Vec3(v[0], v[1], v[2]);
+    b.q[i] = Quat(v[3], v[4], v[5], v[6]);
+    b.R[i] = b.q[i].toRotationMatrix();
   }
   return true;
 }
@@ -110,8 +109,10 @@ Scene loose_bed(int grains) {
 }
 
 Scene settled_bed(const BedSettings& b) {
-  Scene s = loose_grains(b.grains);
+  const Scene loose = loose_grains(b.grains);
+  Scene s = loose;
   const bool kept = !b.folder.empty() && read_places(s, file_name(b));
+  if (!kept) s = loose;
   add_base(s);
   s.context.threads = b.threads;
   if (!kept) {

@@ -92,11 +92,12 @@ void time_steps(Scene s, int threads, int steps) {
     touched += count_contacts(s.pairs), near += s.pairs.size();
   }
   const double whole = motion + search + pairs + sums + ledger;
-  std::printf("  %d thread%s %7.3f us a touching pair, %6.3f a near pair, %7.3f a grain;"
-              "  motion %.0f %%, search %.0f %%, pairs %.0f %%, sums %.0f %%, ledger %.0f %%\n",
-              threads, threads > 1 ? "s" : " ", 1e6 * whole / touched, 1e6 * whole / near,
-              1e6 * whole / steps / s.bodies.grains, 100 * motion / whole, 100 * search / whole,
-              100 * pairs / whole, 100 * sums / whole, 100 * ledger / whole);
+  std::printf(
+      "  %d thread%s %7.3f us a touching pair, %6.3f a near pair, %7.3f a grain;"
+      "  motion %.0f %%, search %.0f %%, pairs %.0f %%, sums %.0f %%, ledger %.0f %%\n",
+      threads, threads > 1 ? "s" : " ", 1e6 * whole / touched, 1e6 * whole / near,
+      1e6 * whole / steps / s.bodies.grains, 100 * motion / whole, 100 * search / whole,
+      100 * pairs / whole, 100 * sums / whole, 100 * ledger / whole);
 }
 
 }  // namespace

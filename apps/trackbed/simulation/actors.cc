@@ -245,7 +245,8 @@ void apply_push(Run& run, double target) {
                           ? w.surfaces[run.actors.sleeper_surface].structure->mass()
                           : w.bodies.mass[moving_body(run)];
   const LoadingScene& l = run.scene.loading;
-  // Its force is found a step late; beyond, spring and dashpot would feed the structure's vibrations.
+  // Its force is found a step late; beyond, spring and dashpot would feed the structure's
+  // vibrations.
   const double stiffest = std::pow(0.05 / s.dt, 2) * mass / run.layout.share;
   if (l.push_stiffness > stiffest) {
     char text[160];
@@ -259,8 +260,8 @@ void apply_push(Run& run, double target) {
   const double dashpot = std::sqrt(l.push_stiffness * mass / run.layout.share);
   const double before = s.push;
   s.push = push_displacement(run) - s.push_start;
-  s.push_force = l.push_stiffness * (target - s.push) +
-                 dashpot * (l.push_speed - (s.push - before) / s.dt);
+  s.push_force =
+      l.push_stiffness * (target - s.push) + dashpot * (l.push_speed - (s.push - before) / s.dt);
   const double force = run.layout.share * s.push_force;
   if (run.actors.sleeper_surface >= 0)
     w.surfaces[run.actors.sleeper_surface].structure->set_load(seat_loads(run.scene), force);

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "base/error.h"
-
 #include "dem/grain/dilated_shape.h"
 #include "dem/grain/parts.h"
 

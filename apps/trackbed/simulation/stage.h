@@ -88,7 +88,7 @@ struct Stage {
   bool ledger = false;    ///< opens the energy ledger at its start
   std::function<void(Run&)> enter;  ///< changes bodies and surfaces, and stage.friction
   std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
-  std::function<double(double)> push;  ///< the actuator's place [m] at that time; empty: no push
+  std::function<double(double)> push;     ///< the actuator's place [m] at that time; empty: no push
   std::function<bool(Run&)> after_cycle;  ///< true: the stage is over
   std::function<bool(Run&)> watch;        ///< often; true: stage.friction has changed
   std::function<bool(Run&)> again;        ///< once it is over; true: it is entered again

@@ -19,7 +19,8 @@ std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene&, const Layo
 /// How many of the elastic sleeper's loads are rail seats.
 int seat_loads(const Scene&);
 
-/// What ranks other than 0 do in a run: their share of its elastic bodies, until fem::release_ranks().
+/// What ranks other than 0 do in a run: their share of its elastic bodies, until
+/// fem::release_ranks().
 void serve_structures(const Scene&);
 
 /// Boundaries of the sleeper that grains touch.

@@ -1,0 +1,112 @@
+// Growth and effects on the settled bed of Voronoi grains.
+//   bed_benchmark growth [folder] [tiles (10)]   step per grain, memory per grain, from 1 to
+//   tiles^2
+//                                                copies of 1000 grains; the exponent of time in
+//                                                grains
+//   bed_benchmark effects [folder]               each effect switched on or off, as a ratio to the
+//                                                bed with friction and local damping, in turn so
+//                                                that a machine whose speed drifts treats all alike
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+#include "settled_bed.h"
+
+using namespace trackbed::dem;
+
+namespace {
+
+double now() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return t.tv_sec + 1e-9 * t.tv_nsec;
+}
+
+double peak_memory() {  // [B]
+  rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  return 1024. * use.ru_maxrss;
+}
+
+double median_step(Scene& s, int steps) {  // [s]
+  std::vector<double> seconds;
+  for (int k = 0; k < steps; ++k) {
+    const double start = now();
+    s.step();
+    seconds.push_back(now() - start);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + steps / 2, seconds.end());
+  return seconds[steps / 2];
+}
+
+void growth(const Scene& bed, int most) {
+  std::printf("| grains | touching pairs | us per touching pair | us per grain | kB per grain |\n");
+  std::printf("|---|---|---|---|---|\n");
+  double first = 0, last = 0, first_grains = 0, last_grains = 0;
+  for (const int tiles : {1, 3, most}) {
+    const double before = peak_memory();
+    Scene s = tiled(bed, tiles, tiles);
+    s.step();
+    const double seconds = median_step(s, tiles < most ? 40 : 15), grains = s.bodies.grains;
+    const int touching = count_contacts(s.pairs);
+    std::printf("| %.0f | %d | %.3f | %.3f | %.1f |\n", grains, touching, 1e6 * seconds / touching,
+                1e6 * seconds / grains, (peak_memory() - before) / 1e3 / grains);
+    if (tiles == 1) first = seconds, first_grains = grains;
+    last = seconds, last_grains = grains;
+  }
+  std::printf("exponent of time per step in grains: %.3f\n",
+              std::log(last / first) / std::log(last_grains / first_grains));
+}
+
+struct Variant {
+  const char* name;
+  Scene scene;
+  std::vector<double> seconds;
+};
+
+void effects(const Scene& bed) {
+  std::vector<Variant> variants{{"friction and local damping", bed, {}}};
+  const auto add = [&](const char* name, auto change) {
+    variants.push_back({name, bed, {}});
+    change(variants.back().scene);
+  };
+  add("without friction", [](Scene& s) { s.forces = make_pair_forces("stored_energy", false); });
+  add("without damping", [](Scene& s) { s.context.local_damping = 0; });
+  add("adaptive damping instead", [](Scene& s) { s.context.local_damping = 0, s.adaptive = true; });
+  add("with torsional friction", [](Scene& s) { s.resistance.torsion = 1; });
+  add("with rolling resistance", [](Scene& s) { s.resistance.rolling = .1; });
+  add("shao2017's law", [](Scene& s) { s.forces = make_pair_forces("shao2017", true); });
+  add("not periodic", [](Scene& s) { s.context.period = Vec3::Zero(), s.prepare(); });
+  for (int round = 0; round < 12; ++round)
+    for (Variant& v : variants)
+      v.seconds.push_back(median_step(v.scene, 9) / count_contacts(v.scene.pairs));
+  double base = 0;
+  std::printf("| bed | us per touching pair and step | ratio |\n|---|---|---|\n");
+  for (Variant& v : variants) {
+    std::sort(v.seconds.begin(), v.seconds.end());
+    const double seconds = v.seconds[v.seconds.size() / 2];
+    if (base == 0) base = seconds;
+    std::printf("| %s | %.3f | %.2f |\n", v.name, 1e6 * seconds, seconds / base);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  if (what != "growth" && what != "effects") {
+    std::fprintf(stderr, "bed_benchmark growth|effects [folder the bed is kept in] [tiles]\n");
+    return 2;
+  }
+  BedSettings settings;
+  settings.folder = argc > 2 ? argv[2] : "";
+  const Scene bed = settled_bed(settings);
+  if (what == "growth")
+    growth(bed, argc > 3 ? std::atoi(argv[3]) : 10);
+  else
+    effects(bed);
+}
