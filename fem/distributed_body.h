@@ -40,8 +40,8 @@ class DistributedBody final : public Structure {
   double largest_frequency() const override;
   int unknowns() const override;
   StructureEnergy energy() const override;
-  /// The same for any number of ranks, to the solver's tolerance. (Direct solves on several ranks
-  /// are not bitwise repeatable: MUMPS adds as messages arrive.)
+  /// The same for any number of ranks, and from run to run on several, to the solver's tolerance:
+  /// sums over ranks are added as messages arrive. Bitwise on one.
   void save(std::vector<double>& state) const override;
   void load(const std::vector<double>& state) override;
   bool has_fields() const override { return true; }

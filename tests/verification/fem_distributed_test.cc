@@ -132,15 +132,16 @@ TEST_P(Ranks, GoOnFromASavedState) {
   bodies[0]->load(state);
   step(*bodies[0], 5, 5);
   bodies[0]->save(b);
-  if (what != kSleeper || ranks() == 1) {
+  if (ranks() == 1) {
     EXPECT_EQ(a, b);
     return;
   }
-  // MUMPS on several ranks adds in the order in which messages arrive.
+  // Sums over ranks are added in the order in which messages arrive.
   ASSERT_EQ(a.size(), b.size());
   double size = 0;
   for (const double x : a) size = std::max(size, std::abs(x));
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9 * size);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_NEAR(a[i], b[i], (what == kMultigrid ? 1e-7 : 1e-9) * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Ranks, testing::Values(kSoil, kSleeper, kMultigrid));
