@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fem/session.h"
 #include "fem/supports.h"
 #include "fem/text.h"
 
@@ -20,6 +21,7 @@ const ElasticBodyParameters& checked(const ElasticBodyParameters& p) {
 }
 
 Discretisation make(const ElasticBodyParameters& p, Grid& grid) {
+  start_session();  // from here on one thread inside deal.II: sums come out the same every time
   make_cells(p, grid);
   return discretise(grid);
 }

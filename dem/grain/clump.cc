@@ -40,14 +40,16 @@ std::vector<Sphere> fill_with_spheres(const TriangleSolid& stone, const FillingP
   std::vector<Sphere> left = candidates(stone, spacing, p.seed), taken;
   std::stable_sort(left.begin(), left.end(),
                    [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; });
-  if (left.empty() || left.front().radius < p.least_radius) {
+  double least = p.least_radius;
+  if (p.at_least_one && !left.empty()) least = std::min(least, left.front().radius);
+  if (left.empty() || left.front().radius < least) {
     char text[160];
     std::snprintf(text, sizeof text,
                   "sphere filling: no sphere of radius %.3g m fits; the largest found has %.3g m",
                   p.least_radius, left.empty() ? 0.0 : left.front().radius);
     throw InputError(text);
   }
-  while (!left.empty() && left.front().radius >= p.least_radius) {
+  while (!left.empty() && left.front().radius >= least) {
     const Sphere s = left.front();
     taken.push_back(s);
     left.erase(left.begin());

@@ -18,10 +18,12 @@ struct FillingParameters {
   double space_factor = 1.3;    ///< K [-], >= 1
   double spacing = 0;           ///< of the candidates [m]; 0: V^(1/3) / 13
   std::uint64_t seed = 1;       ///< candidates are a cubic grid, each moved by up to a quarter
+  bool at_least_one = false;    ///< a stone too thin for R_lim gets its largest sphere alone
 };
 
 /// Largest sphere first; all lie inside the stone. Throws InputError: parameters out of range, a
-/// stone that is no solid, R_lim above every candidate (naming the largest radius).
+/// stone that is no solid, R_lim above every candidate (naming the largest radius) unless
+/// at_least_one.
 std::vector<Sphere> fill_with_spheres(const TriangleSolid&, const FillingParameters&);
 
 /// The clump moved so that its centroid is the origin and its principal axes the coordinate axes,

@@ -114,6 +114,7 @@ std::vector<ClumpShape> make_clump_library(const LibraryParameters& p, double le
     FillingParameters filling;  // the stones have W = 1 m
     filling.least_radius = least_radius, filling.space_factor = space_factor;
     filling.seed = p.seed + i;
+    filling.at_least_one = true;
     const ClumpShape own = make_clump_shape(fill_with_spheres(stones[i], filling));
     shapes[i] = scaled(own, 1 / sieve_size(own.spheres, p.method));
     shapes[i].sieve_size = 1;

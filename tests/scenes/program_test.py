@@ -83,7 +83,7 @@ class SceneTest(unittest.TestCase):
     def summary(self, run):
         return {row["quantity"]: row["value"] for row in rows(run / "summary.csv")}
 
-    def assert_sound(self, run):
+    def assert_sound(self, run, places=9):
         """Every number is one, the ledger closes to 1 %, what a run promises is there."""
         for file in run.glob("*.csv"):
             for row in rows(file):
@@ -96,7 +96,8 @@ class SceneTest(unittest.TestCase):
             self.assertTrue((run / name).stat().st_size > 0, name)
         # Layers of equal thickness make up the whole; classes and layers lose no grain.
         whole, *layers = rows(run / "porosity.csv")
-        self.assertAlmostEqual(float(whole["porosity"]), sum(float(r["porosity"]) for r in layers) / len(layers), 9)
+        self.assertAlmostEqual(float(whole["porosity"]), sum(float(r["porosity"]) for r in layers) / len(layers),
+                               places)
         self.assertEqual(int(whole["grains"]), sum(int(r["grains"]) for r in layers))
         self.assertEqual(len(rows(run / "grains.csv")), sum(int(r["grains"]) for r in rows(run / "classes.csv")))
 
@@ -161,7 +162,7 @@ class Runs(SceneTest):
             with self.subTest(name):
                 change = {**SHORT, **{f"Grains/{key}": value for key, value in keys.items()}}
                 run = self.run_scene(name, change=change)
-                self.assert_sound(run)
+                self.assert_sound(run, places=3)  # round grains are measured by slices
                 damped = float(rows(run / "energy.csv")[-1]["dissipated_contact_damping_J"])
                 self.assertGreater(damped, 0)
                 forces = [float(row["largest_force_N"]) for row in rows(run / "grains.csv")]
@@ -476,7 +477,7 @@ class SameAnswer(SceneTest):
 
     def test_resume_of_two_shapes(self):
         change = {"Packing/Reuse": "false", "Grains/Other shape": "clump", "Grains/Other share": "0.5",
-                  "Packing/Settle time": "0.2"}
+                  "Sleeper/Model": "rigid"}
         whole = self.run_scene("whole", change=change)
         more = [word for path, value in change.items() for word in ("--set", f"{path}={value}")]
         self.stop_after("deposit", "parts", False, more)
