@@ -23,6 +23,16 @@ struct SurfaceBalls {
   double weight[3];
 };
 
+// The point of a patch nearest to a sphere's centre. The triangles there alone say on which side
+// the centre lies: one that stands beside a sleeper is behind its underside too, but farther off.
+struct NearestPoint {
+  double distance = HUGE_VAL;
+  double height = 0;  // of the centre over the most face-on of the triangles that share the point
+  Vec3 y = Vec3::Constant(HUGE_VAL), normal;
+  int triangle = -1;
+  double weight[3];
+};
+
 // Corners relative to the grain's centre.
 struct Corners {
   Vec3 p[3];
@@ -32,26 +42,40 @@ struct Corners {
   Vec3 normal() const { return (p[1] - p[0]).cross(p[2] - p[0]).normalized(); }
 };
 
-void try_point(const Vec3& centre, double r, const Corners& t, int triangle, SurfaceBalls& best) {
+void try_point(const Vec3& centre, const Corners& t, int triangle, NearestPoint& best) {
   double weight[3];
   const Vec3 y = closest_on_triangle(centre, t.p[0], t.p[1], t.p[2], weight);
-  const Vec3 normal = t.normal(), up = centre - y;
-  const double distance = up.norm(), height = normal.dot(up);
-  // Behind the surface only what lies straight below it counts, not what lies past a border.
-  const bool below = height < 0;
-  if (below && height > -0.9 * distance) return;
-  const double overlap = below ? r + distance : r - distance;
-  // Below, the nearest triangle is the one of least overlap.
-  const bool better = best.triangle < 0 ||
-                      (below && best.overlap > r ? overlap < best.overlap : overlap > best.overlap);
-  if (!better) return;
-  const bool face = weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
-  best.overlap = overlap;
-  best.reach = r;
-  best.n = face || !(distance > 0) ? Vec3(-normal) : Vec3((below ? up : -up) / distance);
+  const double distance = (centre - y).norm();
+  // Distances that round to the same have points up to sqrt(epsilon) apart.
+  const bool same = (y - best.y).squaredNorm() < 1e-14 * (t.p[0] - t.p[1]).squaredNorm();
+  if (!(distance < best.distance || same)) return;
+  const Vec3 normal = t.normal();
+  const double height = normal.dot(centre - y);
+  if (!same || std::abs(height) > std::abs(best.height)) best.height = height;
+  if (!(distance < best.distance)) return;
+  best.distance = distance;
   best.y = y;
+  best.normal = normal;
   best.triangle = triangle;
   std::copy(weight, weight + 3, best.weight);
+}
+
+SurfaceBalls sphere_on(const NearestPoint& p, const Vec3& centre, double r, double shell_depth) {
+  SurfaceBalls out;
+  const bool below = p.height < 0;
+  // Behind the surface only what lies straight below it counts, not what lies past a border, nor
+  // what has left the shell (on a sleeper).
+  if (p.triangle < 0 || (below && p.height > -0.9 * p.distance)) return out;
+  if (below && p.distance > shell_depth + r) return out;
+  const Vec3 up = centre - p.y;
+  const bool face = p.weight[0] > 0 && p.weight[1] > 0 && p.weight[2] > 0;
+  out.overlap = below ? r + p.distance : r - p.distance;
+  out.reach = r;
+  out.n = face || !(p.distance > 0) ? Vec3(-p.normal) : Vec3((below ? up : -up) / p.distance);
+  out.y = p.y;
+  out.triangle = p.triangle;
+  std::copy(p.weight, p.weight + 3, out.weight);
+  return out;
 }
 
 void try_core(const PartView& part, const Mat3& R, const SurfacePatch& patch, int cell,
@@ -84,6 +108,7 @@ bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMater
     return true;
   }
   SurfaceBalls best;
+  NearestPoint nearest;
   const bool point = part.kind == Core::point;
   const Vec3 centre = point ? Vec3(b.R[g] * part.centre) : Vec3(Vec3::Zero());
   for (int e = first; e < k.first[i + 1]; ++e) {
@@ -91,10 +116,11 @@ bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMater
     const int triangle = k.cell[e] / 3;
     const Corners t(patch, triangle, offset);
     if (point)
-      try_point(centre, part.radius, t, triangle, best);
+      try_point(centre, t, triangle, nearest);
     else
       try_core(part, b.R[g], patch, k.cell[e], offset, t, k.arm[i], best);
   }
+  if (point) best = sphere_on(nearest, centre, part.radius, patch.shell_depth);
   std::vector<std::pair<int, Vec3>>& nodal = k.nodal[i];
   nodal.clear();
   if (best.triangle < 0 || !(best.overlap > 0)) {

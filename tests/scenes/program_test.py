@@ -476,8 +476,7 @@ class SameAnswer(SceneTest):
         self.assertEqual((whole / "snapshots.xdmf").read_bytes(), (parts / "snapshots.xdmf").read_bytes())
 
     def test_resume_of_two_shapes(self):
-        change = {"Packing/Reuse": "false", "Grains/Other shape": "clump", "Grains/Other share": "0.5",
-                  "Sleeper/Model": "rigid"}
+        change = {"Packing/Reuse": "false", "Grains/Other shape": "clump", "Grains/Other share": "0.5"}
         whole = self.run_scene("whole", change=change)
         more = [word for path, value in change.items() for word in ("--set", f"{path}={value}")]
         self.stop_after("deposit", "parts", False, more)

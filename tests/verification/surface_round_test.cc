@@ -1,6 +1,7 @@
 // Spheres, clumps and dilated polyhedra on deforming surfaces.
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "dem/contact/restitution.h"
 #include "dem/grain/parts.h"
 #include "dem/grain/random.h"
@@ -124,6 +125,37 @@ TEST(RoundOnSurface, a_sphere_rebounds_from_a_sleepers_edge_as_from_a_line) {
     s.evaluate_afresh();
     EXPECT_LT((s.bodies.force[0] - force * n).norm(), 1e-9 * force) << angle;
   }
+}
+
+TEST(RoundOnSurface, a_small_sphere_leans_on_a_sleepers_side) {
+  // It stands behind the underside's plane, within the shell, and is none the deeper for it.
+  const Mesh m = edge_mesh(3, 6, 1);
+  RoundScene s(m, 1e9);
+  s.add_shape(sphere_shape(.1), Vec3::Zero());
+  const double force = 4. / 3 * 1e9 * std::sqrt(.1) * std::pow(.002, 1.5);
+  for (const double under : {.001, .05, .1, .15, .2, .24, .28, .3, .4}) {
+    s.bodies.x[0] = Vec3(.098, .13, -under);
+    s.evaluate_afresh();
+    EXPECT_LT((s.bodies.force[0] - Vec3(force, 0, 0)).norm(), 1e-9 * force) << under;
+  }
+}
+
+TEST(RoundOnSurface, a_sphere_is_pushed_out_the_nearest_way) {
+  // Its centre inside, near a sleeper's edge; deeper than the shell reaches is refused.
+  const Mesh m = edge_mesh(3, 6, 1);
+  RoundScene s(m, 1e6);
+  s.add_shape(sphere_shape(.1), Vec3::Zero());
+  for (const double depth : {.01, .03, .08}) {
+    const double force = 4. / 3 * 1e6 * std::sqrt(.1) * std::pow(.1 + depth, 1.5);
+    s.bodies.x[0] = Vec3(-depth, .13, -2 * depth);
+    s.evaluate_afresh();
+    EXPECT_LT((s.bodies.force[0] - Vec3(force, 0, 0)).norm(), 1e-9 * force) << depth;
+    s.bodies.x[0] = Vec3(-2 * depth, .13, -depth);
+    s.evaluate_afresh();
+    EXPECT_LT((s.bodies.force[0] - Vec3(0, 0, force)).norm(), 1e-9 * force) << depth;
+  }
+  s.bodies.x[0] = Vec3(-.25, .13, -.5);
+  EXPECT_THROW(s.evaluate_afresh(), RunError);
 }
 
 TEST(RoundOnSurface, clump_rests_on_its_spheres_with_friction) {
