@@ -262,8 +262,11 @@ std::unique_ptr<ModalStructure> make_beam(const BeamParameters& p) {
     }
   // On a plane of symmetry: no motion along x, no turn about y and z.
   std::vector<int> free;
-  for (int i = 0; i < motions; ++i)
-    if (!p.half || (i != 0 && i != 4 && i != 5)) free.push_back(i);
+  for (int i = 0; i < motions; ++i) {
+    const bool plane = p.half && (i == 0 || i == 4 || i == 5);
+    const bool held = p.supported && (i == motions - 4 || (i == 2 && !p.half));
+    if (!plane && !held) free.push_back(i);
+  }
   MatrixXd rigid = MatrixXd::Zero(motions, 6);
   const double middle = (p.low_x + p.high_x) / 2;
   for (int i = 0; i <= p.elements; ++i) {

@@ -36,6 +36,7 @@ struct BeamParameters {
   bool shear_rigid = false;  ///< Euler–Bernoulli, to compare
   double bed = 0;            ///< Winkler springs along the line, vertical [N/m2]
   bool half = false;         ///< low_x is a plane of symmetry
+  bool supported = false;    ///< the line's ends are held up and down (not on a plane of symmetry)
   std::vector<BeamLoad> loads;
   Vec gravity{0, 0, 0};  ///< [m/s2]
 };
