@@ -19,6 +19,9 @@ inline double tilt_stiffness(const OverlapShape& s, double stiffness) {
   return 2.25 * stiffness * (mean + std::sqrt(half * half + C(0, 1) * C(0, 1))) / s.volume;
 }
 
+/// Angle between a frame's normal and the vector area's from which the frame is made anew [rad].
+inline constexpr double kFrameTurn = 1e-10;
+
 template <class Law, bool friction>
 void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                    const StepContext& c, const std::vector<double>& travel, OverlapWorkspace& work,
@@ -52,7 +55,15 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   }
 
   const PairMaterial& material = materials(b.material[i], b.material[j]);
-  const OverlapShape shape = make_shape(moments, work);
+  OverlapShape shape = make_shape(moments, work);
+  if constexpr (!Law::stores_energy) {
+    // Depth and force are along the frame's normal: it must be that of this overlap's vector area.
+    if (shape.area.head<2>().squaredNorm() > kFrameTurn * kFrameTurn * shape.area.squaredNorm()) {
+      axis = (frame.axes * shape.area).normalized();
+      if (!overlaps()) return release(pairs, p);
+      shape = make_shape(moments, work);
+    }
+  }
   const NormalResponse response = Law()(shape, material);
   const PressureForce pressure = integrate_pressure(work, work.a_pieces, shape, response);
   const Vec3 normal = -(frame.axes * pressure.force);

@@ -32,5 +32,16 @@ std::string test_name(const testing::TestParamInfo<Case>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, HardCase, testing::ValuesIn(quick()), test_name);
 
+// A law whose force is along the frame's normal needs that normal to turn with the pair.
+TEST(TurnedPair, turns_along_with_every_law) {
+  for (const Case& c : rest_cases())
+    if (c.name == "stuck pair turned by 360 degrees")
+      for (const Setting& s : settings(c)) {
+        const Measured m = c.run(s);
+        EXPECT_TRUE(m.judged);
+        EXPECT_LE(m.value, m.bound) << s.law << ", " << s.shape;
+      }
+}
+
 }  // namespace
 }  // namespace trackbed::hard

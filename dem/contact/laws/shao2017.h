@@ -7,6 +7,7 @@
 // an energy where the contact's area changes: a closed loop of two cubes, depth x0 -> x1, width y0
 // -> y1, z long, gains k sqrt(z)/2 (x1^2-x0^2)(sqrt(y1)-sqrt(y0)); so it stores none (energy 0) and
 // is offered by name, to reproduce the paper's results.
+// n is that of the overlap's vector area in the step itself (pair_evaluate.h makes the frame anew).
 //
 // Stiffness: sqrt(V d) grows as d face on face (dF/dd = 4E sqrt(S)/(3 sqrt(pi))), as d^2 at a
 // vertex (V=Sd/3: 2/sqrt(3) of that) and as d^(3/2) at an edge (V=Sd/2: 1.5/sqrt(2) of that); the
