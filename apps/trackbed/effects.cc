@@ -59,6 +59,14 @@ const std::vector<EffectKind>& effect_kinds() {
        "a finite element step, contacts with its deforming surface",
        [](const Scene& s) { return s.subgrade.model != "rigid"; },
        [](const Scene&, const Plan& p) { return text_of(p.subgrade); }},
+      {"modes of the sleeper", "Sleeper/Reduction", "none", "condensed",
+       "a basis at the start; then products of its size instead of solves",
+       [](const Scene& s) { return s.sleeper.model == "elastic" && s.sleeper.reduction != "none"; },
+       nullptr},
+      {"modes of the subgrade", "Subgrade/Reduction", "none", "condensed",
+       "a basis at the start; then products of its size instead of solves",
+       [](const Scene& s) { return s.subgrade.model != "rigid" && s.subgrade.reduction != "none"; },
+       nullptr},
       {"absorbing boundaries", "Subgrade/Absorbing", "none", "all",
        "dashpots on the subgrade's boundaries: always a solve",
        [](const Scene& s) { return s.subgrade.model != "rigid" && s.subgrade.absorbing != "none"; },
@@ -86,6 +94,13 @@ const std::vector<EffectKind>& effect_kinds() {
       {"adaptive damping", "Contact/Damping", "none", "adaptive",
        "two sums of the kinetic energy a step; dissipates",
        [](const Scene& s) { return s.contact.damping_kind == "adaptive"; }, nullptr},
+      {"round grains", "Grains/Shape", "polyhedron", "dilated",
+       "Hertz contacts of spheres, clumps or dilated cores instead of overlap volumes",
+       [](const Scene& s) {
+         return s.grains.shape != "polyhedron" ||
+                (s.grains.other_share > 0 && s.grains.other_shape != "polyhedron");
+       },
+       nullptr},
       {"torsional friction", "Contact/Torsional friction", "0", "1",
        "a pass over touching pairs, 48 bytes a pair",
        [](const Scene& s) { return s.contact.torsion > 0; }, nullptr},

@@ -50,6 +50,21 @@ TEST(EffectsOff, local_damping_is_the_limit_of_none) {
   EXPECT_EQ(off.flow.local_damping, 0);
 }
 
+// On with a share that no digit sees: the couples of a pass that is not made when off.
+TEST(EffectsOff, torsion_and_rolling_are_the_limit_of_none) {
+  for (const bool rolls : {false, true}) {
+    dem::Scene none = tumbling_blocks(), on = tumbling_blocks();
+    on.resistance.torsion = rolls ? 0 : 1e-200;
+    on.resistance.rolling = rolls ? 1e-200 : 0;
+    none.prepare(), on.prepare();
+    EXPECT_GT(run_both(none, on), 100);
+    expect_same_bits(none.bodies, on.bodies);
+    EXPECT_TRUE(none.pairs.torsion.empty());
+    EXPECT_FALSE(none.pairs.resists);
+    EXPECT_TRUE(on.pairs.resists);
+  }
+}
+
 // A seam so far away that nothing meets it.
 TEST(EffectsOff, periodic_images_are_none_without_a_seam) {
   dem::Scene off = tumbling_blocks(), on = tumbling_blocks();
@@ -60,12 +75,12 @@ TEST(EffectsOff, periodic_images_are_none_without_a_seam) {
   expect_same_bits(off.bodies, on.bodies);
 }
 
-int pair_calls = 0, patch_calls = 0;
+int pair_calls = 0, patch_calls = 0, round_calls = 0;
 dem::PairForces::Evaluate pair_inner = nullptr;
 dem::EvaluatePatch patch_inner = nullptr;
 
 void count_calls(coupling::World& w) {
-  pair_calls = patch_calls = 0;
+  pair_calls = patch_calls = round_calls = 0;
   pair_inner = w.pair_forces.evaluate;
   patch_inner = w.patch_forces;
   w.pair_forces.evaluate = [](const dem::Bodies& b, const dem::ShapeTable& s,
@@ -74,6 +89,9 @@ void count_calls(coupling::World& w) {
     ++pair_calls;
     pair_inner(b, s, m, c, travel, p);
   };
+  w.round_forces.evaluate = [](const dem::Bodies&, const dem::ShapeTable&,
+                               const dem::PairMaterials&, const dem::StepContext&,
+                               const std::vector<double>&, dem::Pairs&) { ++round_calls; };
   w.patch_forces = [](const dem::Bodies& b, const dem::ShapeTable& s, const dem::PairMaterials& m,
                       const dem::StepContext& c, const std::vector<double>& travel,
                       const dem::SurfacePatch& patch, dem::PatchContacts& contacts) {
@@ -104,6 +122,7 @@ TEST(EffectsOff, rigid_ground_never_touches_structures) {
   expect_same_bits(plain.bodies, w.bodies);
   EXPECT_EQ(pair_calls, steps);
   EXPECT_EQ(patch_calls, 0);
+  EXPECT_EQ(round_calls, 0);  // all grains are plain polyhedra
   EXPECT_TRUE(w.surfaces.empty());
 
   coupling::World bed = coupling::bed(2, 1);
