@@ -99,6 +99,14 @@ TEST(SphereUnion, SlicesOfRandomClumpsConverge) {
     }
 }
 
+// The mid-slice rule: one sphere's error is 1/(2 n^2) of its volume, n slices over its height.
+TEST(SphereUnion, SlicesAreOfSecondOrder) {
+  const Sphere ball{Vec3(0.1, -0.2, 0.3), 0.7};
+  const double exact = 4 / 3. * M_PI * std::pow(ball.radius, 3);
+  for (int n = 10; n <= 640; n *= 2)
+    EXPECT_NEAR((sliced_volume({ball}, n) / exact - 1) * n * n, 0.5, 1e-6) << n;
+}
+
 TEST(SphereUnion, InertiaOfRandomClumps) {
   const auto clump = random_clump(20, 3);
   const MassProperties p = mass_properties(clump);
