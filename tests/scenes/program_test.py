@@ -269,6 +269,20 @@ class Exchange(SceneTest):
                 self.assertAlmostEqual(float(rows(run / "cycles.csv")[0]["u_max_m"]), settled[model],
                                        delta=0.01 * abs(settled[model]))
 
+    def test_settlement_with_steps_per_exchange(self):
+        """Within 1 % up to ten grain steps per exchange; a hundred are refused."""
+        change = {**SHORT, "Numerics/Margin": 0.1, "Numerics/Exchange": "several_steps"}
+        settled = {}
+        for n in (1, 2, 5, 10):
+            run = self.run_scene(f"steps_{n}", change={**change, "Numerics/Grain steps per exchange": n})
+            settled[n] = float(rows(run / "cycles.csv")[-1]["settlement_m"])
+            self.assertAlmostEqual(settled[n], settled[1], delta=0.01 * abs(settled[1]), msg=str(n))
+        self.assertNotEqual(settled[1], settled[10])
+        words = [f"--set={k}={v}" for k, v in {**change, "Packing/Folder": "packings"}.items()]
+        done = self.trackbed("run", "tiny.prm", "--output", "many", *words,
+                             "--set=Numerics/Grain steps per exchange=100", exit_code=2)
+        self.assertRegex(done.stderr, r"stability limit.*\d+ would do")
+
     def test_energy_lines_at_an_interval(self):
         few = self.run_scene("few", change=SHORT)
         many = self.run_scene("many", change={**SHORT, "Output/Energy interval": 3})
