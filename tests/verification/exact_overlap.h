@@ -5,6 +5,8 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
 
+#include <array>
+
 #include "tests/verification/contact_support.h"
 
 namespace trackbed::dem::test {
@@ -12,6 +14,20 @@ namespace trackbed::dem::test {
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Plane = Kernel::Plane_3;
+
+// Three corners of a face, in its order, that fix its plane best: neighbours may almost coincide.
+inline std::array<int, 3> largest_triangle(const Polyhedron& body, const std::vector<int>& face) {
+  std::array<int, 3> best{face[0], face[1], face[2]};
+  double most = -1;
+  for (std::size_t i = 0; i < face.size(); ++i)
+    for (std::size_t j = i + 1; j < face.size(); ++j)
+      for (std::size_t k = j + 1; k < face.size(); ++k) {
+        const Vec3& p = body.vertices[face[i]];
+        const double twice = (body.vertices[face[j]] - p).cross(body.vertices[face[k]] - p).norm();
+        if (twice > most) most = twice, best = {face[i], face[j], face[k]};
+      }
+  return best;
+}
 
 // The place of a body is exact here: a shift, or a turn whose products are exact (multiples of 1/8
 // and quarter turns), so that both sides see the same solids. Random hulls have triangles only.
@@ -24,7 +40,10 @@ inline std::vector<Plane> planes(const Polyhedron& body, const Pose& pose) {
                    Kernel::FT(turned.z()) + Kernel::FT(pose.x.z()));
   }
   std::vector<Plane> out;
-  for (const auto& f : body.faces) out.emplace_back(p[f[0]], p[f[1]], p[f[2]]);
+  for (const auto& f : body.faces) {
+    const std::array<int, 3> corner = largest_triangle(body, f);
+    out.emplace_back(p[corner[0]], p[corner[1]], p[corner[2]]);
+  }
   return out;
 }
 
