@@ -356,4 +356,13 @@ TEST(HalfSpace, DiscLoad) {
   }
   EXPECT_NEAR(centre, 2.632500e-3, 0.05 * 2.632500e-3);
   EXPECT_NEAR(mean, 2.234535e-3, 0.05 * 2.234535e-3);
+
+  // On the axis at depth a, by Hooke's law from strains over two cells. Symmetry: u_y/y = u_x/x.
+  const double h = 0.05, mu = 20e6 / 2.7, lambda = 2 * mu * 0.35 / 0.3;
+  const double across = b.displacement_at({h, 0, -a})[0] / h;
+  const double down =
+      (b.displacement_at({0, 0, -a + h})[2] - b.displacement_at({0, 0, -a - h})[2]) / (2 * h);
+  const double stress = -(lambda * (2 * across + down) + 2 * mu * down);
+  EXPECT_NEAR(stress, 64.645e3, 0.05 * 64.645e3);
+  RecordProperty("sigma_z", std::to_string(stress));
 }
