@@ -14,6 +14,30 @@ Knob order_of(const char* name, const char* path, const char* quantity, const ch
   return knob;
 }
 
+Knob reduction_of(const char* name, const char* path, const char* quantity, const char* needs) {
+  Knob knob;
+  knob.name = name;
+  knob.path = path;
+  knob.quantity = quantity;
+  knob.meaning = "shapes among which a reduced body's motion is sought; none is the full body";
+  knob.rungs = {"modal", "condensed", "none"};
+  knob.needs = needs;
+  return knob;
+}
+
+Knob modes_of(const char* name, const char* path, const char* quantity, const char* needs) {
+  Knob knob;
+  knob.name = name;
+  knob.path = path;
+  knob.quantity = quantity;
+  knob.meaning = "lowest elastic modes of a reduced body; higher ones are left out";
+  knob.factor = 2;
+  knob.cheaper = knob.finer = 1;
+  knob.whole = true;
+  knob.needs = needs;
+  return knob;
+}
+
 }  // namespace
 
 std::vector<Knob> fem_knobs() {
@@ -44,10 +68,17 @@ std::vector<Knob> fem_knobs() {
   soil.cheaper = soil.finer = 1;
   soil.order = 2;
   soil.needs = "Subgrade/Model!=rigid";
-  return {bending, cells,
+  return {bending,
+          cells,
           order_of("sleeper_order", "Sleeper/Order", "bending_moment", "Sleeper/Model=elastic"),
           soil,
-          order_of("subgrade_order", "Subgrade/Order", "settlement", "Subgrade/Model!=rigid")};
+          order_of("subgrade_order", "Subgrade/Order", "settlement", "Subgrade/Model!=rigid"),
+          reduction_of("sleeper_reduction", "Sleeper/Reduction", "bending_moment",
+                       "Sleeper/Model=elastic"),
+          modes_of("sleeper_modes", "Sleeper/Modes", "bending_moment", "Sleeper/Reduction!=none"),
+          reduction_of("subgrade_reduction", "Subgrade/Reduction", "settlement",
+                       "Subgrade/Model=layered_elastic"),
+          modes_of("subgrade_modes", "Subgrade/Modes", "settlement", "Subgrade/Reduction!=none")};
 }
 
 }  // namespace trackbed::fem
