@@ -9,6 +9,7 @@ trackbed_test(fem_dynamics verification trackbed_fem)
 trackbed_test(fem_plasticity verification trackbed_fem)
 trackbed_test(fem_reduction verification trackbed_fem)
 trackbed_test(fem_beam verification trackbed_fem)
+trackbed_test(fem_rail_pad verification trackbed_fem)
 trackbed_test(fem_schemes verification trackbed_fem)
 # Looks at the library's inner parts, and so at deal.II.
 trackbed_test(fem_convergence verification trackbed_fem trackbed_dealii)

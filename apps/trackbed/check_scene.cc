@@ -9,6 +9,7 @@
 #include "apps/trackbed/simulation/materials.h"
 #include "base/error.h"
 #include "dem/grading/curve.h"
+#include "dem/motion/bodies.h"
 
 namespace trackbed::apps {
 namespace {
@@ -157,8 +158,15 @@ void check_sleeper(const Check& c) {
     c.refuse("Sleeper/Mesh", "holds for Sleeper/Model = elastic only; a beam is a block");
   if (s.model == "beam" && s.pad_thickness > 0)
     c.refuse("Sleeper/Pad thickness", "a pad is made with Sleeper/Model = elastic only");
-  if (s.vertical_only && s.model != "rigid")
-    c.refuse("Sleeper/Vertical only", "holds for Sleeper/Model = rigid only");
+  if (s.rail_pad.damping > 0 && s.rail_pad.stiffness == 0)
+    c.refuse("Sleeper/Pad damping", "a pad of no stiffness; give Sleeper/Pad stiffness too");
+  if (s.freedom < 0)
+    c.refuse("Sleeper/Degrees of freedom",
+             "six, vertical, or a list of x, y, z, turn x, turn y and turn z, each once at most");
+  if (!(s.freedom & dem::kMoveZ))
+    c.refuse("Sleeper/Degrees of freedom", "z must be among them: the load acts along it");
+  if (s.freedom != dem::kFree && s.model != "rigid")
+    c.refuse("Sleeper/Degrees of freedom", "holds for Sleeper/Model = rigid only");
   if (!s.mesh.empty() && s.pad_thickness > 0)
     c.refuse("Sleeper/Pad thickness", "a pad is made with a block only, not with Sleeper/Mesh");
 }
@@ -179,8 +187,10 @@ void check_loading(const Check& c) {
     c.refuse("Loading/Waveform", "needs Loading/Table, a CSV file with time_s and load_N");
   if (l.waveform != "table" && !l.table.empty())
     c.refuse("Loading/Table", "is used only with Loading/Waveform = table, not with " + l.waveform);
-  if (l.push != "none" && c.scene.sleeper.vertical_only)
-    c.refuse("Loading/Push", "a sleeper with Sleeper/Vertical only = true cannot be pushed");
+  const int along = l.push == "lateral" ? dem::kMoveX : dem::kMoveY;
+  if (l.push != "none" && !(c.scene.sleeper.freedom & along))
+    c.refuse("Loading/Push", std::string("needs ") + (along == dem::kMoveX ? "x" : "y") +
+                                 " among Sleeper/Degrees of freedom");
   if (l.push == "lateral" && c.scene.container.half)
     c.refuse("Loading/Push",
              "Container/Half by symmetry mirrors the push as well; use the whole sleeper");

@@ -250,7 +250,12 @@ void add_sleeper(Section s) {
   s.numbers("Seats", "0", "m", -10, 10, "x of the rail seats; the load is shared equally");
   s.number("Seat length", "0.15", "m", 1e-3, 5, "loaded area of a seat, in x");
   s.number("Seat width", "0.15", "m", 1e-3, 5, "loaded area of a seat, in y");
-  s.boolean("Vertical only", "false", "a rigid sleeper that only moves up and down (Sun 2015)");
+  s.number("Pad stiffness", "0", "N/m", 0, 1e13,
+           "of the rail pad between a rail seat and the rail, where the load acts; 0 = none");
+  s.number("Pad damping", "0", "N s/m", 0, 1e9, "of the rail pad, beside its spring");
+  s.text("Degrees of freedom", "six", "-",
+         "of a rigid sleeper: six, vertical (Sun 2015), or a list with z of x, y, z, turn x, "
+         "turn y, turn z; the others stay exactly where they are");
   s.text("Mesh", "", "-",
          "Gmsh file of an elastic sleeper with the outer sizes above, relative to this file; "
          "empty = block");

@@ -8,6 +8,7 @@
 #include "apps/trackbed/check_structures.h"
 #include "apps/trackbed/choices.h"
 #include "apps/trackbed/decide.h"
+#include "apps/trackbed/freedom.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/scene_text.h"
@@ -159,7 +160,8 @@ SleeperScene sleeper(const Values& v) {
   s.seats = v.numbers("Sleeper/Seats");
   s.seat_length = v.number("Sleeper/Seat length");
   s.seat_width = v.number("Sleeper/Seat width");
-  s.vertical_only = v.boolean("Sleeper/Vertical only");
+  s.rail_pad = {v.number("Sleeper/Pad stiffness"), v.number("Sleeper/Pad damping")};
+  s.freedom = freedom_of(v.text("Sleeper/Degrees of freedom"));
   s.mesh = v.text("Sleeper/Mesh");
   return s;
 }

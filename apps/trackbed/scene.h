@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/trackbed/load_table.h"
+#include "fem/rail_pad.h"
 
 namespace trackbed::apps {
 
@@ -122,8 +123,9 @@ struct SleeperScene {
   double pad_thickness, pad_modulus, pad_poisson, pad_density;  ///< under-sleeper pad, 0 = none
   std::vector<double> seats;                                    ///< x of the rail seats [m]
   double seat_length, seat_width;  ///< loaded area of one seat in x, y [m]
-  bool vertical_only;              ///< a rigid sleeper moves only vertically (Sun 2015)
-  std::string mesh;                ///< Gmsh file instead of a block; empty = block
+  fem::RailPad rail_pad;           ///< under each rail; stiffness 0 = none
+  int freedom;       ///< of a rigid sleeper: bits of dem::Freedom, -1 = not understood
+  std::string mesh;  ///< Gmsh file instead of a block; empty = block
 };
 
 struct SubgradeScene {

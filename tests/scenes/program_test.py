@@ -218,6 +218,43 @@ class Structures(SceneTest):
         absorbing = peak("absorbing", **{"Subgrade/Absorbing": "all"})
         self.assertGreater(absorbing, 0)
 
+    def test_rail_pads(self):
+        """Pad and sleeper are springs in series: one load, deflections add. The sleeper itself does not feel it."""
+        pad = {"Sleeper/Pad stiffness": "1e6"}
+        models = {"rigid": {"Sleeper/Model": "rigid"}, "beam": {"Sleeper/Model": "beam"}, "elastic": {},
+                  "reduced": {"Sleeper/Reduction": "modal"}}
+        for name, model in models.items():
+            with self.subTest(name):
+                bare = self.run_scene(name, change={**SHORT, **model})
+                padded = self.run_scene(name + "_pad", change={**SHORT, **model, **pad})
+                self.assert_same(bare, padded, ["cycles.csv", "energy.csv", "moment.csv"])
+                count = 0
+                for row in rows(padded / "history.csv"):
+                    if row["stage"] == "loading":
+                        u, rail, load = (float(row[k]) for k in ("u_m", "rail_displacement_m", "load_N"))
+                        self.assertAlmostEqual(rail, u + load / 1e6, delta=1e-15)
+                        count += 1
+                self.assertGreater(count, 10)
+                (seat,) = rows(padded / "rail_seats.csv")
+                self.assertAlmostEqual(float(seat["rail_displacement_m"]), float(seat["displacement_m"]) + 100 / 1e6,
+                                       delta=1e-12)
+        for row in rows(self.folder / "rigid" / "history.csv"):
+            self.assertEqual(row["rail_displacement_m"], row["u_m"])
+
+    def test_degrees_of_freedom(self):
+        """A vertical sleeper does not tilt by a bit; one free to turn about y does, and about nothing else."""
+        def run(name, freedom):
+            change = {**SHORT, "Sleeper/Model": "rigid", "Subgrade/Model": "rigid",
+                      "Sleeper/Degrees of freedom": freedom}
+            run = self.run_scene(name, change=change)
+            self.assert_sound(run)
+            return [float(row["deflection_m"]) for row in rows(run / "moment.csv")]
+        self.assertEqual(len(set(run("vertical", "vertical"))), 1)
+        level = run("about_x", "x, y, z, turn x")
+        self.assertLess(max(level) - min(level), 1e-15)
+        tilted = run("about_y", "z, turn y")
+        self.assertGreater(max(tilted) - min(tilted), 1e-9)
+
     def test_push(self):
         """The actuator takes the sleeper along. How much a bed of fifty grains resists says nothing."""
         push = {**SHORT, "Loading/Push": "longitudinal", "Loading/Push speed": "0.02",

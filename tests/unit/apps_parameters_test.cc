@@ -8,6 +8,7 @@
 
 #include "apps/trackbed/choices.h"
 #include "apps/trackbed/files.h"
+#include "apps/trackbed/freedom.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/plan.h"
@@ -16,6 +17,7 @@
 #include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/waveform.h"
 #include "base/error.h"
+#include "dem/motion/bodies.h"
 #include "fem/subgrades/registry.h"
 
 namespace trackbed::apps {
@@ -25,8 +27,15 @@ namespace {
 const fem::RegisterSubgrade here{
     {"my_bed",
      "Independent springs of a stiffness given as settlement under a pressure of 100 kPa.",
-     {{"Subgrade/my_bed", "Settlement", "1e-3", "m", "under 100 kPa", ParameterKind::number, 1e-9,
-       1, {}}},
+     {{"Subgrade/my_bed",
+       "Settlement",
+       "1e-3",
+       "m",
+       "under 100 kPa",
+       ParameterKind::number,
+       1e-9,
+       1,
+       {}}},
      [](const fem::SubgradeSite& site, const fem::Values& values) {
        fem::PointBedParameters p = fem::points_under(site);
        p.stiffness = 1e5 / fem::number(values, "Settlement");
@@ -77,16 +86,25 @@ TEST_F(Parameters, WhatIsPrintedIsReadBack) {
   EXPECT_EQ(again.values, plain.values);
 }
 
+TEST(Freedom, Names) {
+  EXPECT_EQ(freedom_of("six"), dem::kFree);
+  EXPECT_EQ(freedom_of("vertical"), dem::kMoveZ);
+  EXPECT_EQ(freedom_of("z,turn y"), dem::kMoveZ | dem::kTurnY);
+  EXPECT_EQ(freedom_of(" x , y, z, turn x, turn y, turn z "), dem::kFree);
+  for (const char* wrong : {"z, z", "turn", ",", "Z", "vertical, x"})
+    EXPECT_EQ(freedom_of(wrong), -1) << wrong;
+}
+
 TEST_F(Parameters, PlainJsonWithNumbersAndLists) {
   const Scene scene = read_scene(write("a.json", R"({
     "Title": "A \"small\" one",
     "Gradation": {"Curve": "table", "Sieves": [0.0355, 0.045, 0.056], "Passing": [0, 40, 100]},
-    "Sleeper": {"Model": "rigid", "Vertical only": true},
+    "Sleeper": {"Model": "rigid", "Degrees of freedom": "vertical"},
     "Contact": {"Contact modulus": 1e8}})"));
   EXPECT_EQ(scene.title, "A \"small\" one");
   EXPECT_EQ(scene.gradation.sieves, (std::vector<double>{0.0355, 0.045, 0.056}));
   EXPECT_EQ(scene.contact.modulus, 1e8);
-  EXPECT_TRUE(scene.sleeper.vertical_only);
+  EXPECT_EQ(scene.sleeper.freedom, dem::kMoveZ);
 }
 
 TEST_F(Parameters, IncludedFilesStandBelowTheIncludingOne) {
@@ -131,8 +149,8 @@ TEST_F(Parameters, EveryRegisteredSubgradeHasItsSectionAndItsWords) {
   for (const auto& [name, model] : fem::subgrade_models()) {
     EXPECT_NE(printed.find("subsection " + name), std::string::npos) << name;
     EXPECT_FALSE(section_documentation("Subgrade/" + name).empty()) << name;
-    const Scene scene = read_scene(write(name + ".prm", "subsection Subgrade\n  set Model = " +
-                                                            name + "\nend\n"));
+    const Scene scene =
+        read_scene(write(name + ".prm", "subsection Subgrade\n  set Model = " + name + "\nend\n"));
     EXPECT_EQ(scene.subgrade.values.size(), model.parameters.size()) << name;
     EXPECT_GT(make_subgrade_structure(scene, make_layout(scene))->mass(), 0) << name;
   }

@@ -204,11 +204,10 @@ void place_structures(Run& run) {
   build_structures(run);
   if (run.actors.sleeper_surface >= 0)
     remove_moving_body(run);
-  else if (run.scene.container.half)
-    w.bodies.freedom[sleeper] =
-        dem::kMoveZ | (run.scene.sleeper.vertical_only ? 0 : dem::kMoveY | dem::kTurnX);
-  else if (!run.scene.sleeper.vertical_only)
-    w.bodies.freedom[sleeper] = dem::kFree;
+  else
+    w.bodies.freedom[sleeper] = static_cast<std::uint8_t>(
+        run.scene.sleeper.freedom &
+        (run.scene.container.half ? dem::kMoveY | dem::kMoveZ | dem::kTurnX : dem::kFree));
   if (run.actors.subgrade_surface >= 0) {
     coupling::remove_bodies(w, {floor});
     --run.actors.walls;
@@ -226,6 +225,13 @@ void apply_load(Run& run, double newton) {
   } else if (run.actors.plate || run.actors.rigid_sleeper) {
     w.bodies.applied_force[moving_body(run)] = Vec3(0, 0, -run.layout.share * newton);
   }
+}
+
+void compress_pads(Run& run, double before, double dt) {
+  const SleeperScene& s = run.scene.sleeper;
+  const double seats = static_cast<double>(s.seats.size());  // also of a half sleeper: whole loads
+  run.stage.pad =
+      fem::pad_compression(s.rail_pad, run.stage.pad, before / seats, run.stage.load / seats, dt);
 }
 
 double push_displacement(const Run& run) {

@@ -45,6 +45,9 @@ inline int moving_body(const Run& run) { return run.world.bodies.grains + run.ac
 /// The load on plate or sleeper from now on [N].
 void apply_load(Run&, double newton);
 
+/// The rail pads' answer to a load that goes evenly from `before` to the present one in dt [s].
+void compress_pads(Run&, double before, double dt);
+
 /// The actuator of a push stands at `target` from its start [m]: the force of its spring and
 /// dashpot (half of critical) on the sleeper from now on.
 void apply_push(Run&, double target);

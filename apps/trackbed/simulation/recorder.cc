@@ -9,10 +9,11 @@
 namespace trackbed::apps {
 namespace {
 
-const std::vector<std::string> kHistory{
-    "time_s",      "stage",    "load_N",       "u_m",
-    "kinetic_J",   "contacts", "coordination", "push_displacement_m",
-    "push_force_N"};
+const std::vector<std::string> kHistory{"time_s",       "stage",
+                                        "load_N",       "u_m",
+                                        "kinetic_J",    "contacts",
+                                        "coordination", "push_displacement_m",
+                                        "push_force_N", "rail_displacement_m"};
 const std::vector<std::string> kEnergy{"time_s",
                                        "kinetic_J",
                                        "gravity_J",
@@ -71,7 +72,8 @@ void Recorder::sample(Run& run, const Stage& stage) {
   history_.row({run.world.time, stage.name, run.stage.load, u,
                 dem::kinetic_energy(run.world.bodies), coupling::count_contacts(run.world),
                 coupling::coordination(run.world), stage.push ? CsvCell(run.stage.push) : CsvCell(),
-                stage.push ? CsvCell(run.stage.push_force) : CsvCell()});
+                stage.push ? CsvCell(run.stage.push_force) : CsvCell(),
+                sleeper ? CsvCell(rail_displacement(run) - run.stage.u0) : CsvCell()});
   energy(run, stage);
 }
 

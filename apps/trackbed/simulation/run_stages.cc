@@ -312,7 +312,9 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     }
     progress.begin(stage.name, run.world.time, s.start + stage.longest);
     const coupling::Drive drive = [&](coupling::World&, double time) {
+      const double before = s.load;
       apply_load(run, stage.load(run, time - s.start));
+      if (stage.ledger || stage.push) compress_pads(run, before, s.dt);
       if (stage.push) apply_push(run, stage.push(time - s.start));
     };
     const int taken = coupling::steps_per_exchange(run.world);

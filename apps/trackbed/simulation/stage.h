@@ -45,6 +45,7 @@ struct StageState {
   double stop_at = 0;        ///< > 0: porosity at which a bed of quasi-vibration is stopped
   double stop_friction = 0;  ///< by this friction
   double load = 0;           ///< on plate or sleeper now [N]
+  double pad = 0;            ///< compression of the rail pads now [m]
   double u0 = 0;             ///< sleeper displacement that counts as zero [m]
   double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
   double push_start = 0, push = 0;  ///< sleeper along the push: at its start, and since then [m]
@@ -106,6 +107,11 @@ dem::StepContext step_context(const Run&, const Stage&);
 
 /// Sleeper's displacement, positive downwards, against where it was put in [m].
 double sleeper_displacement(const Run&);
+
+/// The same of the rail, beyond its pads.
+inline double rail_displacement(const Run& run) {
+  return sleeper_displacement(run) + run.stage.pad;
+}
 
 /// Height of the bed between the subgrade and the plate [m].
 double bed_height(const Run&);

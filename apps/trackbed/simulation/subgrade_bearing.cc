@@ -69,7 +69,7 @@ void write_rail_seats(const Run& run, const std::string& file) {
   std::vector<double> seats;
   for (const double x : run.scene.sleeper.seats)
     if (x >= run.layout.sleeper_low_x) seats.push_back(x);
-  CsvWriter csv(file, {"seat", "x_m", "load_N", "displacement_m"});
+  CsvWriter csv(file, {"seat", "x_m", "load_N", "displacement_m", "rail_displacement_m"});
   const double share = run.stage.load * run.layout.share / std::max<std::size_t>(1, seats.size());
   for (std::size_t k = 0; k < seats.size(); ++k) {
     double u = deflection_at(run, seats[k]);
@@ -77,7 +77,7 @@ void write_rail_seats(const Run& run, const std::string& file) {
       const fem::Structure& s = *run.world.surfaces[run.actors.sleeper_surface].structure;
       if (static_cast<int>(k) < s.loads()) u = -s.load_displacement(static_cast<int>(k))[2];
     }
-    csv.row({static_cast<int>(k + 1), seats[k], share, u});
+    csv.row({static_cast<int>(k + 1), seats[k], share, u, u + run.stage.pad});
   }
   csv.flush();
 }

@@ -12,7 +12,7 @@ namespace trackbed::apps {
 void write_subgrade_pressure(const Run&, const std::string& folder);
 
 /// rail_seats.csv: seat, x_m, load_N, displacement_m (downwards, from where the sleeper was put
-/// in), now.
+/// in), rail_displacement_m (the same beyond the rail pad), now.
 void write_rail_seats(const Run&, const std::string& file);
 
 }  // namespace trackbed::apps
