@@ -30,6 +30,9 @@ void print_grains(const Scene& scene, const Plan& plan) {
   for (const auto& z : estimate_zones(scene))
     std::printf("            %-12s %6.0f %9.2f kg %6.0f\n", z.name.c_str(), z.grains, z.mass,
                 z.all_fine);
+  std::printf("            computing %s; %s if all were fine, %.2f times as long\n",
+              duration_text(plan.seconds).c_str(), duration_text(plan.seconds_all_fine).c_str(),
+              plan.seconds_all_fine / plan.seconds);
 }
 
 /// Form of the library by some of its shapes: making and sizing all of a large one takes minutes.

@@ -94,6 +94,11 @@ void check_grains(const Check& c) {
   const auto& d = c.scene.gradation;
   if (d.needle_share + d.flaky_share > 100)
     c.refuse("Gradation/Needle share", "at most 100 % together with Gradation/Flaky share");
+  const bool spheres = (g.other_share >= 1 || g.shape == "sphere") &&
+                       (g.other_share <= 0 || g.other_shape == "sphere");
+  for (const auto& [key, share] : {std::pair{"Gradation/Needle share", d.needle_share},
+                                   std::pair{"Gradation/Flaky share", d.flaky_share}})
+    if (spheres && share > 0) c.refuse(key, "spheres (Grains/Shape) are neither needles nor flaky");
 }
 
 void check_shapes(const Check& c) {

@@ -6,13 +6,30 @@
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/signals.h"
 #include "apps/trackbed/simulation/export_packing.h"
+#include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/packing_store.h"
 #include "apps/trackbed/simulation/simulate.h"
+#include "base/error.h"
 
 namespace trackbed::apps {
 
+namespace {
+
+// Known before hours of packing.
+void check_formats(const Scene& scene, const std::vector<std::string>& formats) {
+  if (!std::count(formats.begin(), formats.end(), "off") || !has_shape(scene, "clump")) return;
+  const GrainScene& g = scene.grains;
+  throw InputError(
+      std::string("--export off: ") +
+      (g.other_share < 1 && g.shape == "clump" ? "Grains/Shape" : "Grains/Other shape") +
+      " = clump: clumps are no single closed solids; allowed are csv, vtu");
+}
+
+}  // namespace
+
 int pack_command(const PackOptions& o) {
   const Scene scene = read_scene(o.scene, o.set);
+  check_formats(scene, o.formats);
   const std::string path = o.output.empty() ? "results/" + scene.name : o.output;
   OutputFolder folder(path, earlier_run(false, o.overwrite));
   catch_stop_signals();

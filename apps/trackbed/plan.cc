@@ -127,19 +127,25 @@ Plan make_plan(const Scene& scene, int threads) {
     plan.subgrade = measure(*make_subgrade_structure(scene, layout), dt);
     area += (layout.high - layout.low).head<2>().prod();
   }
-  const double d = std::cbrt(layout.bed_mass / (scene.grains.density * 0.6 * plan.grains));
-  const double surface_contacts = area / (d * d);
-  for (auto& stage : plan.stages) {
+  // Of a stage in a bed of `finer` times as many grains.
+  const auto seconds = [&](const PlanStage& stage, double finer) {
+    const double bed = finer * plan.grains;
+    const double d = std::cbrt(layout.bed_mass / (scene.grains.density * 0.6 * bed));
     const bool filled = stage.name != "deposit" && stage.name != "tamping";
-    const double count = plan.grains + (filled ? plan.fill_grains : 0);
+    const double count = bed + (filled ? finer * plan.fill_grains : 0);
     // As many threads as a step uses (stages.cc).
     const double workers = std::min<double>(threads, 1 + std::floor(count / 100));
     double step = seconds_per_grain_step * count;
-    if (stage.loads) step += seconds_per_surface_contact * surface_contacts;
+    if (stage.loads) step += seconds_per_surface_contact * area / (d * d);
     step *= 1 - parallel_share + parallel_share / std::max(1.0, workers);
     if (stage.loads) step += plan.sleeper.seconds + plan.subgrade.seconds;
-    stage.seconds = stage.steps * step;
+    return stage.steps * step;
+  };
+  for (auto& stage : plan.stages) {
+    stage.seconds = seconds(stage, 1);
     plan.seconds += stage.seconds;
+    if (plan.all_fine > 0)
+      plan.seconds_all_fine += seconds(stage, plan.all_fine / (plan.grains + plan.fill_grains));
   }
   const auto factor = [](const StructureCost& c) {
     return 12 * 81 * c.unknowns + (c.solves ? 12 * 8 * std::pow(c.unknowns, 4.0 / 3) : 0);

@@ -39,8 +39,9 @@ struct Plan {
   StructureCost sleeper, subgrade;
   std::vector<PlanStage> stages;
   std::vector<Effect> effects;
-  double memory;   ///< [bytes]
-  double seconds;  ///< of computing, with `threads` threads
+  double memory;                ///< [bytes]
+  double seconds;               ///< of computing, with `threads` threads
+  double seconds_all_fine = 0;  ///< if there were no zones; 0 = there are none
 };
 
 Plan make_plan(const Scene&, int threads);

@@ -19,6 +19,12 @@ std::string class_name(const DrawnClass& c) {
   return text;
 }
 
+std::string percent(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
 // Shape indices in random order; dealt again in a new order when all are used.
 class Deck {
  public:
@@ -110,8 +116,9 @@ class FormDealer {
     const char* const names[] = {"ordinary grains", "needles", "flakes"};
     for (int f = 0; f < 3; ++f)
       if (share_[f] > 0 && std::count(form_.begin(), form_.end(), f) == 0)
-        throw InputError("gradation draw: " + std::to_string(share_[f]) + " % " + names[f] +
-                         " are asked for, but the library holds none");
+        throw InputError("gradation draw: " + percent(share_[f]) + " % " + names[f] +
+                         (f == 0 ? " are left beside the needles and flakes" : " are asked for") +
+                         ", but the library holds none");
   }
 
   // The shapes to deal from.

@@ -238,16 +238,22 @@ void write_off(const std::string& path, const TriangleSolid& solid) {
   write_off(path, body);
 }
 
+std::string off_text(const Polyhedron& body) {
+  std::ostringstream text;
+  text << "OFF\n" << body.vertices.size() << ' ' << body.faces.size() << " 0\n";
+  text.precision(17);
+  for (const Vec3& v : body.vertices) text << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const auto& face : body.faces) {
+    text << face.size();
+    for (int v : face) text << ' ' << v;
+    text << '\n';
+  }
+  return text.str();
+}
+
 void write_off(const std::string& path, const Polyhedron& body) {
   std::ofstream file(path);
-  file << "OFF\n" << body.vertices.size() << ' ' << body.faces.size() << " 0\n";
-  file.precision(17);
-  for (const Vec3& v : body.vertices) file << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
-  for (const auto& face : body.faces) {
-    file << face.size();
-    for (int v : face) file << ' ' << v;
-    file << '\n';
-  }
+  file << off_text(body);
   file.close();
   if (!file) throw InputError(path + ": cannot be written");
 }

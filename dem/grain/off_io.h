@@ -34,6 +34,7 @@ Polyhedron check_solid(const std::string& name, const RawMesh&, const SolidOptio
 TriangleSolid read_triangle_solid(const std::string& path, double unit = 1);
 
 /// Writes OFF with all digits. Throws InputError when the file cannot be written.
+std::string off_text(const Polyhedron&);
 void write_off(const std::string& path, const Polyhedron&);
 void write_off(const std::string& path, const TriangleSolid&);
 

@@ -12,9 +12,14 @@
 namespace trackbed::dem {
 namespace {
 
+void mirror_solid(Polyhedron& solid, int axis) {
+  for (Vec3& p : solid.vertices) p[axis] = -p[axis];
+  for (auto& face : solid.faces) std::reverse(face.begin(), face.end());
+}
+
 GrainShape mirrored(GrainShape s, int axis) {
-  for (Vec3& p : s.body.vertices) p[axis] = -p[axis];
-  for (auto& face : s.body.faces) std::reverse(face.begin(), face.end());
+  mirror_solid(s.body, axis);
+  for (ConvexPart& part : s.parts) mirror_solid(part.core, axis);
   s.origin = Vec3::Zero(), s.turn = Quat::Identity();  // there is no pose of a mirror image
   return s;
 }

@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "dem/grain/clump_io.h"
 #include "dem/grain/off_io.h"
+#include "dem/grain/parts.h"
 #include "dem/packing/packing_file.h"
 
 namespace trackbed::dem {
@@ -25,10 +27,8 @@ std::string read_all(const std::string& path) {
   return text.str();
 }
 
-// A body in its own frame as a grain whose frame stands at x, turned by q.
-void add_posed(PackedGrains& g, const Polyhedron& body, const Vec3& x, const Quat& q,
-               double sieve) {
-  GrainShape s = make_grain_shape(body);
+// A shape in its file's frame as a grain whose frame stands at x, turned by q.
+void add_posed(PackedGrains& g, GrainShape s, const Vec3& x, const Quat& q, double sieve) {
   s.sieve_size = sieve;
   g.add(s, x + q * s.origin, (q * s.turn).normalized());
 }
@@ -36,7 +36,7 @@ void add_posed(PackedGrains& g, const Polyhedron& body, const Vec3& x, const Qua
 PackedGrains read_off(const std::string& path) {
   PackedGrains g;
   for (const Polyhedron& body : read_solids(path))
-    add_posed(g, body, Vec3::Zero(), Quat::Identity(), 0);
+    add_posed(g, make_grain_shape(body), Vec3::Zero(), Quat::Identity(), 0);
   return g;
 }
 
@@ -51,16 +51,26 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
-std::string shape_file(const std::string& csv, int shape) {
-  return csv.substr(0, csv.size() - 4) + "_shapes/" + std::to_string(shape) + ".off";
-}
-
 struct Row {
   int shape;
   Vec3 x;
   Quat q;
   double sieve;
+  std::string kind;
+  double radius;  // of a dilated polyhedron
 };
+
+std::string shape_path(const std::string& csv, const Row& row) {
+  return csv.substr(0, csv.size() - 4) + "_shapes/" + std::to_string(row.shape) +
+         (row.kind == "spheres" ? ".csv" : ".off");
+}
+
+GrainShape read_shape(const std::string& path, const Row& row) {
+  if (row.kind == "spheres") return as_grain(make_clump_shape(read_clump(path)));
+  const Polyhedron solid = read_solid(path);
+  return row.kind == "dilated" ? as_grain(make_dilated_shape({solid, row.radius}))
+                               : make_grain_shape(solid);
+}
 
 std::vector<Row> read_rows(const std::string& path) {
   std::istringstream text(read_all(path));
@@ -75,34 +85,51 @@ std::vector<Row> read_rows(const std::string& path) {
       throw InputError(path + ": a packing needs the column '" + names[k] + "'");
     column[k] = static_cast<int>(at - header.begin());
   }
+  const auto find = [&](const char* name) { return std::find(header.begin(), header.end(), name); };
+  const auto kind_at = find("kind") - header.begin(), radius_at = find("radius_m") - header.begin();
   std::vector<Row> rows;
   for (int number = 2; std::getline(text, line); ++number) {
     if (line.empty() || line == "\r") continue;
     const std::string at = path + ": line " + std::to_string(number) + ": ";
     const std::vector<std::string> cells = split(line);
-    double v[9];
-    for (int k = 0; k < 9; ++k) {
-      const std::string cell = column[k] < static_cast<int>(cells.size()) ? cells[column[k]] : "";
+    const auto cell = [&](std::ptrdiff_t k) {
+      return k < static_cast<std::ptrdiff_t>(cells.size()) ? cells[k] : std::string();
+    };
+    const auto number_in = [&](const char* name, std::ptrdiff_t k) {
+      const std::string text = cell(k);
       char* end = nullptr;
-      v[k] = std::strtod(cell.c_str(), &end);
-      if (cell.empty() || *end != '\0' || !std::isfinite(v[k]))
-        throw InputError(at + names[k] + " = '" + cell + "' is not a number");
-    }
+      const double value = std::strtod(text.c_str(), &end);
+      if (text.empty() || *end != '\0' || !std::isfinite(value))
+        throw InputError(at + name + " = '" + text + "' is not a number");
+      return value;
+    };
+    double v[9];
+    for (int k = 0; k < 9; ++k) v[k] = number_in(names[k], column[k]);
     const Quat q(v[4], v[5], v[6], v[7]);
     if (std::abs(q.norm() - 1) > 1e-6) throw InputError(at + "the quaternion's length is not 1");
     if (v[0] < 0 || v[0] != std::floor(v[0]) || v[0] > 1e9)
       throw InputError(at + "shape is not a whole number");
-    rows.push_back({static_cast<int>(v[0]), {v[1], v[2], v[3]}, q.normalized(), v[8]});
+    const bool told = kind_at < static_cast<std::ptrdiff_t>(header.size());
+    const std::string kind = told ? cell(kind_at) : "polyhedron";
+    if (kind != "polyhedron" && kind != "spheres" && kind != "dilated")
+      throw InputError(at + "kind = '" + kind + "'; allowed are polyhedron, spheres, dilated");
+    const double radius = kind == "dilated" ? number_in("radius_m", radius_at) : 0;
+    if (kind == "dilated" && !(radius > 0))
+      throw InputError(at + "radius_m must be positive for a dilated grain");
+    if (kind != "polyhedron" && !(v[8] > 0))
+      throw InputError(at + "sieve_m must be positive for a grain of kind " + kind);
+    rows.push_back(
+        {static_cast<int>(v[0]), {v[1], v[2], v[3]}, q.normalized(), v[8], kind, radius});
   }
   return rows;
 }
 
 PackedGrains read_csv(const std::string& path) {
   PackedGrains g;
-  std::map<int, Polyhedron> bodies;
+  std::map<int, GrainShape> shapes;
   for (const Row& row : read_rows(path)) {
-    const auto [at, fresh] = bodies.try_emplace(row.shape);
-    if (fresh) at->second = read_solid(shape_file(path, row.shape));
+    const auto [at, fresh] = shapes.try_emplace(row.shape);
+    if (fresh) at->second = read_shape(shape_path(path, row), row);
     add_posed(g, at->second, row.x, row.q, row.sieve);
   }
   return g;
@@ -122,9 +149,9 @@ PackedGrains read_packing(const std::string& path) {
 std::vector<std::string> packing_files(const std::string& path) {
   std::vector<std::string> files{path};
   if (ending(path) != "csv") return files;
-  std::set<int> shapes;
-  for (const Row& row : read_rows(path)) shapes.insert(row.shape);
-  for (const int k : shapes) files.push_back(shape_file(path, k));
+  std::set<std::string> shapes;
+  for (const Row& row : read_rows(path)) shapes.insert(shape_path(path, row));
+  files.insert(files.end(), shapes.begin(), shapes.end());
   return files;
 }
 

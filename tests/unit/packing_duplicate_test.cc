@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "dem/grain/library.h"
+#include "dem/grain/parts.h"
 #include "dem/grain/random.h"
 #include "dem/motion/monitor.h"
 #include "dem/packing/duplicate.h"
@@ -81,6 +82,26 @@ TEST(Duplicate, a_lattice_stays_a_lattice) {
       EXPECT_NEAR((bed.turn[i] * p).cwiseAbs().maxCoeff(), .5 * a, 1e-12);
   }
   for (const int n : taken) EXPECT_EQ(n, 1);
+}
+
+TEST(Duplicate, the_mirror_image_of_a_clump_holds_the_spheres_images) {
+  PackedGrains g;
+  g.add(as_grain(make_clump_shape(
+            {{{0, 0, 0}, .02}, {{.02, 0, 0}, .012}, {{0, .025, 0}, .01}, {{0, 0, .03}, .015}})),
+        {.1, .2, .3}, Quat(.3, -.5, .2, .7).normalized());
+  const PackedGrains before = g;
+  for (int axis = 0; axis < 3; ++axis) {
+    g = before;
+    mirror(g, 0, axis, .05);
+    for (std::size_t k = 0; k < g.shape[0].parts.size(); ++k) {
+      const auto place = [&](const PackedGrains& p) -> Vec3 {
+        return p.centre[0] + p.turn[0] * p.shape[0].parts[k].core.vertices[0];
+      };
+      Vec3 image = place(before);
+      image[axis] = .1 - image[axis];
+      EXPECT_LT((place(g) - image).norm(), 1e-15);
+    }
+  }
 }
 
 TEST(Duplicate, a_layer_let_down_stops_at_the_clearance_above_the_one_below) {

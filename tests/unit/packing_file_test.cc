@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "dem/grain/library.h"
-#include "dem/grain/off_io.h"
+#include "dem/grain/parts.h"
 #include "dem/grain/random.h"
 
 namespace trackbed::dem {
@@ -45,9 +45,10 @@ PackedGrains sample() {
 std::string write_csv(const Folder& folder, const PackedGrains& g) {
   const DistinctShapes d = distinct_shapes(g);
   fs::create_directories(folder.path / "p_shapes");
-  for (std::size_t k = 0; k < d.first_of.size(); ++k)
-    write_off((folder.path / "p_shapes" / (std::to_string(k) + ".off")).string(),
-              g.shape[d.first_of[k]].body);
+  for (std::size_t k = 0; k < d.first_of.size(); ++k) {
+    const ShapeFile shape = shape_file(g.shape[d.first_of[k]]);
+    folder.file("p_shapes/" + std::to_string(k) + shape.ending, shape.text);
+  }
   return folder.file("p.csv", packing_csv_text(g, d.shape_of));
 }
 
@@ -113,6 +114,78 @@ TEST(PackingFile, vtu_holds_every_corner_and_face_once) {
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
+// Two spheres, two unlike clumps of the same spheres' sizes, a dilated box, a plain one.
+PackedGrains rounded_sample() {
+  const auto sized = [](GrainShape s, double size) {
+    s.sieve_size = size;
+    return s;
+  };
+  DilatedShape box = make_dilated_shape({make_box({.03, .04, .05}), .004});
+  const std::vector<Sphere> corner{{{0, 0, 0}, .02}, {{.02, 0, 0}, .012}, {{0, .025, .01}, .01}};
+  std::vector<Sphere> other = corner;
+  other[2].centre.z() = -.01;
+  PackedGrains g;
+  const Quat q = Quat(.3, -.5, .2, .7).normalized();
+  for (const GrainShape& s :
+       {sphere_shape(.02), sphere_shape(.03), sized(as_grain(make_clump_shape(corner)), .04),
+        sized(as_grain(make_clump_shape(other)), .041), sized(as_grain(box), .045),
+        sized(make_grain_shape(make_box({.03, .04, .05})), .04)}) {
+    g.add(s, Vec3(.1 * g.size(), .2, .3), q);
+    g.add(s, Vec3(.1 * g.size(), .4, .3), q.conjugate());
+  }
+  return g;
+}
+
+// Where a part's core lies in the world.
+std::vector<Vec3> core_points(const PackedGrains& g, int i, int part) {
+  std::vector<Vec3> points;
+  for (const Vec3& v : g.shape[i].parts[part].core.vertices)
+    points.push_back(g.centre[i] + g.turn[i] * v);
+  return points;
+}
+
+TEST(PackingFile, spheres_clumps_and_dilated_grains_come_back_from_csv) {
+  const Folder folder;
+  const PackedGrains g = rounded_sample();
+  EXPECT_EQ(distinct_shapes(g).first_of.size(), 6u);
+  const PackedGrains back = read_packing(write_csv(folder, g));
+  ASSERT_EQ(back.size(), g.size());
+  for (int i = 0; i < g.size(); ++i) {
+    EXPECT_EQ(back.shape[i].sieve_size, g.shape[i].sieve_size);
+    EXPECT_NEAR(back.shape[i].volume / g.shape[i].volume, 1, 1e-12);
+    EXPECT_LT((back.shape[i].inertia - g.shape[i].inertia).norm(),
+              1e-12 * g.shape[i].inertia.norm());
+    EXPECT_LT((back.centre[i] - g.centre[i]).norm(), 1e-12);
+    ASSERT_EQ(back.shape[i].parts.size(), g.shape[i].parts.size());
+    for (int k = 0; k < static_cast<int>(g.shape[i].parts.size()); ++k) {
+      const ConvexPart &a = g.shape[i].parts[k], &b = back.shape[i].parts[k];
+      EXPECT_EQ(a.radius, b.radius);
+      EXPECT_NEAR(a.crown, b.crown, 1e-9 * a.crown);
+      for (const Vec3& p : core_points(g, i, k)) {
+        double nearest = 1;
+        for (const Vec3& x : core_points(back, i, k)) nearest = std::min(nearest, (p - x).norm());
+        EXPECT_LT(nearest, 1e-12) << i;
+      }
+    }
+  }
+}
+
+TEST(PackingFile, outlines_of_round_grains_have_their_volume) {
+  const Folder folder;
+  const PackedGrains g = rounded_sample();
+  EXPECT_NE(packing_vtu_text(g).find("NumberOfCells=\"20\""), std::string::npos);  // clumps: three
+  EXPECT_THROW(packing_off_text(g), InputError);
+  PackedGrains whole;
+  for (int i = 0; i < g.size(); ++i)
+    if (g.shape[i].parts.size() < 2) whole.add(g.shape[i], g.centre[i], g.turn[i]);
+  const PackedGrains back = read_packing(folder.file("p.off", packing_off_text(whole)));
+  ASSERT_EQ(back.size(), 8);
+  for (int i = 0; i < back.size(); ++i) {
+    EXPECT_NEAR(back.shape[i].volume / whole.shape[i].volume, 1, 1e-4);
+    EXPECT_LT((back.centre[i] - whole.centre[i]).norm(), 1e-5);
+  }
+}
+
 std::string complaint(const std::string& file) {
   try {
     read_packing(file);
@@ -138,6 +211,14 @@ TEST(PackingFile, malformed_files_are_named) {
             std::string::npos);
   EXPECT_NE(complaint(csv(header + "\n" + first + "\n")).find("bad_shapes/0.off"),
             std::string::npos);
+  const auto kind = [&](const std::string& cells) {
+    return complaint(csv("shape,x_m,y_m,z_m,qw,qx,qy,qz,sieve_m,kind,radius_m\n0,0,0,0,1,0,0,0," +
+                         cells + "\n"));
+  };
+  EXPECT_NE(kind("1,blob,0").find("line 2: kind = 'blob'"), std::string::npos);
+  EXPECT_NE(kind("1,dilated,0").find("radius_m"), std::string::npos);
+  EXPECT_NE(kind("0,spheres,0").find("sieve_m"), std::string::npos);
+  EXPECT_NE(kind("1,spheres,0").find("bad_shapes/0.csv"), std::string::npos);
   EXPECT_NE(complaint((folder.path / "none.csv").string()).find("cannot be opened"),
             std::string::npos);
   EXPECT_NE(complaint(folder.file("p.txt", "x")).find("unknown kind"), std::string::npos);

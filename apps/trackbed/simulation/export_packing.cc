@@ -5,7 +5,6 @@
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/simulation/saved_run.h"
 #include "base/error.h"
-#include "dem/grain/off_io.h"
 #include "dem/packing/packing_file.h"
 
 namespace trackbed::apps {
@@ -19,9 +18,10 @@ void write_csv(const dem::PackedGrains& grains, const std::string& folder) {
   std::filesystem::remove_all(shapes, failed);
   std::filesystem::create_directories(shapes, failed);
   if (failed) throw RunError(shapes + ": cannot be made: " + failed.message());
-  for (std::size_t k = 0; k < distinct.first_of.size(); ++k)
-    dem::write_off(shapes + "/" + std::to_string(k) + ".off",
-                   grains.shape[distinct.first_of[k]].body);
+  for (std::size_t k = 0; k < distinct.first_of.size(); ++k) {
+    const dem::ShapeFile file = dem::shape_file(grains.shape[distinct.first_of[k]]);
+    write_aside_then_rename(shapes + "/" + std::to_string(k) + file.ending, file.text);
+  }
   write_aside_then_rename(folder + "/packing.csv",
                           dem::packing_csv_text(grains, distinct.shape_of));
 }

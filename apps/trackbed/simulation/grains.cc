@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "apps/trackbed/csv.h"
 #include "base/error.h"
 #include "dem/grain/dilated_shape.h"
 #include "dem/grain/parts.h"
@@ -121,6 +122,20 @@ dem::SieveCurve gradation_curve(const Scene& s) {
   return curve;
 }
 
+namespace {
+
+// What goes wrong with needles and flakes names their keys.
+dem::GradationDraw draw_or_name_shares(const Scene& s, const std::vector<dem::GrainShape>& library,
+                                       const dem::DrawParameters& p) try {
+  return dem::draw_gradation(gradation_curve(s), library, p);
+} catch (const InputError& e) {
+  if (p.needle_share <= 0 && p.flaky_share <= 0) throw;
+  throw InputError(s.file + ": Gradation/Needle share = " + shortest(p.needle_share) +
+                   ", Flaky share = " + shortest(p.flaky_share) + ": " + e.what());
+}
+
+}  // namespace
+
 std::vector<dem::GrainShape> draw_grains(const Scene& s,
                                          const std::vector<dem::GrainShape>& library, double mass,
                                          int stream) {
@@ -129,7 +144,7 @@ std::vector<dem::GrainShape> draw_grains(const Scene& s,
   p.seed = s.grains.seed * 1000003 + stream;
   p.tolerance = 100 * s.gradation.tolerance;
   p.needle_share = s.gradation.needle_share, p.flaky_share = s.gradation.flaky_share;
-  const dem::GradationDraw draw = dem::draw_gradation(gradation_curve(s), library, p);
+  const dem::GradationDraw draw = draw_or_name_shares(s, library, p);
   std::vector<dem::GrainShape> grains;
   grains.reserve(draw.grains.size());
   for (const dem::DrawnGrain& g : draw.grains)

@@ -86,14 +86,23 @@ void choose_step(Run& run, const Stage& stage) {
   set_step(run, dt);
 }
 
+// By the scene, or in a packing that was taken from files.
+bool has_round_grains(const Run& run) {
+  const Scene& s = run.scene;
+  if (has_shape(s, "sphere") || has_shape(s, "clump") || has_shape(s, "dilated")) return true;
+  const dem::ShapeTable& shapes = run.world.shapes;
+  for (int k = 0; k < shapes.size(); ++k)
+    if (!shapes.shape(k).parts.empty()) return true;
+  return false;
+}
+
 void choose_laws(Run& run, const Stage& stage) {
   coupling::World& w = run.world;
   const ContactScene& c = run.scene.contact;
   w.materials = make_materials(run.scene, stage.modulus, run.stage.friction);
   w.pair_forces = dem::make_pair_forces(c.law, true);
   w.patch_forces = dem::make_patch_forces(c.law, true);
-  if (has_shape(run.scene, "sphere") || has_shape(run.scene, "clump") ||
-      has_shape(run.scene, "dilated")) {
+  if (has_round_grains(run)) {
     w.round_forces = dem::make_round_forces(c.round_law, true);
     w.round_patch_forces = dem::make_round_patch_forces(c.round_law, true);
   }
