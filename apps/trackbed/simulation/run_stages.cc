@@ -92,7 +92,8 @@ bool has_round_grains(const Run& run) {
   if (has_shape(s, "sphere") || has_shape(s, "clump") || has_shape(s, "dilated")) return true;
   const dem::ShapeTable& shapes = run.world.shapes;
   for (int k = 0; k < shapes.size(); ++k)
-    if (!shapes.shape(k).parts.empty()) return true;
+    for (const dem::ConvexPart& part : shapes.shape(k).parts)
+      if (part.radius > 0) return true;
   return false;
 }
 
