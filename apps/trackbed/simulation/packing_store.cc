@@ -13,7 +13,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr const char* kVersion = "packing 6";  // raised when packings come out differently
+constexpr const char* kVersion = "packing 7";  // raised when packings come out differently
 
 // Parameters that a packing does not depend on, by section or by key.
 bool matters(const std::string& key) {
