@@ -358,7 +358,7 @@ class Ranks(SceneTest):
                 self.assertAlmostEqual(float(one[key]), float(other[key]), delta=1e-5 * abs(float(one[key])))
         wrong = run("--output", "wrong", "--set=Numerics/Margin=7")
         self.assertEqual(wrong.returncode, 2)
-        self.assertEqual(wrong.stderr.count("Numerics/Margin"), 1, wrong.stderr)
+        self.assertEqual(wrong.stderr.count("is out of range"), 1, wrong.stderr)
 
 
 class Packings(SceneTest):

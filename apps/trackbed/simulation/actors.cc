@@ -179,19 +179,27 @@ void build_structures(Run& run) {
   w.surfaces.clear();
   run.actors.sleeper_surface = run.actors.subgrade_surface = -1;
   const double depth = shell_depth(run);
-  fem::ask_to_build(0, run.actors.sleeper_base);
-  const fem::BuildingTogether together;
-  if (run.scene.sleeper.model != "rigid") {
-    run.actors.sleeper_surface = static_cast<int>(w.surfaces.size());
-    w.surfaces.push_back(coupling::make_surface(
-        "sleeper", kSleeper, depth, 0, {0, 0, 0},
-        make_elastic_sleeper(run.scene, run.layout, run.actors.sleeper_base)));
+  std::unique_ptr<fem::Structure> sleeper, subgrade;
+  {
+    // All of them before any is asked for its motion: under mpirun the other ranks build as many in
+    // a row, and serve the asking only then.
+    fem::ask_to_build(0, run.actors.sleeper_base);
+    const fem::BuildingTogether together;
+    if (run.scene.sleeper.model != "rigid")
+      sleeper = make_elastic_sleeper(run.scene, run.layout, run.actors.sleeper_base);
+    if (run.scene.subgrade.model != "rigid")
+      subgrade = make_subgrade_structure(run.scene, run.layout);
   }
-  if (run.scene.subgrade.model != "rigid") {
+  if (sleeper) {
+    run.actors.sleeper_surface = static_cast<int>(w.surfaces.size());
+    w.surfaces.push_back(
+        coupling::make_surface("sleeper", kSleeper, depth, 0, {0, 0, 0}, std::move(sleeper)));
+  }
+  if (subgrade) {
     run.actors.subgrade_surface = static_cast<int>(w.surfaces.size());
     w.surfaces.push_back(coupling::make_surface("subgrade", kSubgrade, depth,
                                                 largest_sieve(w.shapes), run.layout.period,
-                                                make_subgrade_structure(run.scene, run.layout)));
+                                                std::move(subgrade)));
   }
 }
 
