@@ -45,8 +45,7 @@ BodyModel::BodyModel(ElasticBodyParameters given)
       unknowns(number_unknowns(body, p.name, p.supports)),
       assembled(assemble(p, grid, body, unknowns, lumped(p, body, unknowns))),
       surface(contact_surface(body, unknowns, p.name, p.contact)) {
-  if (chosen_solver(p.solver, unknowns.count) != SolverKind::direct)
-    assembled.matrices.rigid = rigid_motions(body, unknowns);
+  assembled.matrices.rigid = rigid_motions(body, unknowns);
   for (const Load& l : p.loads) patches.push_back(load_patch(body, p.name, l));
 }
 

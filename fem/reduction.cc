@@ -78,14 +78,16 @@ class Basis {
       for (int i = 0; i <= j; ++i) K(i, j) = K(j, i) = dot(shape[i], kx);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K);
-    const std::size_t rows = shape.front().size();
-    std::vector<Column> turned(n, Column(rows, 0.));
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const double share = solver.eigenvectors()(i, j);
-        for (std::size_t r = 0; r < rows; ++r) turned[j][r] += share * shape[i][r];
-      }
-    shape = std::move(turned);
+    for (std::vector<Column>* vectors : {&shape, &mass_shape_}) {
+      const std::size_t rows = shape.front().size();
+      std::vector<Column> turned(n, Column(rows, 0.));
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          const double share = solver.eigenvectors()(i, j);
+          for (std::size_t r = 0; r < rows; ++r) turned[j][r] += share * (*vectors)[i][r];
+        }
+      *vectors = std::move(turned);
+    }
     std::vector<double> omega;
     for (int j = 0; j < n; ++j) {
       const double w = std::sqrt(std::max(solver.eigenvalues()[j], 0.));
@@ -169,23 +171,20 @@ std::vector<Column> load_patterns(const BodyModel& b, Reduction reduction) {
   return patterns;
 }
 
-// Work of a force through the static deflection it makes, elastic part: by the full factor, and by
-// the modes.
+// Work of a balanced force through the static deflection it makes: by the full factor, and by the
+// modes that are not rigid.
 struct Compliance {
   double full, reduced;
 };
 
-Compliance compliance(const Column& f, const Factor& factor, double shift, int rigid,
+Compliance compliance(const Column& balanced, const Factor& factor, double shift, int rigid,
                       const std::vector<Column>& shape, const std::vector<double>& omega) {
-  Column x(f.size());
-  factor.solve(f, x);
-  Compliance c{dot(f, x), 0};
-  for (std::size_t k = 0; k < shape.size(); ++k) {
-    const double p = dot(shape[k], f), share = p * p / (omega[k] * omega[k] + shift);
-    if (static_cast<int>(k) < rigid)
-      c.full -= share;
-    else
-      c.reduced += share;
+  Column x(balanced.size());
+  factor.solve(balanced, x);
+  Compliance c{dot(balanced, x), 0};
+  for (std::size_t k = rigid; k < shape.size(); ++k) {
+    const double p = dot(shape[k], balanced);
+    c.reduced += p * p / (omega[k] * omega[k] + shift);
   }
   return c;
 }
@@ -233,7 +232,8 @@ void fill(ReductionReport& r, const BodyModel& b, const Modes& normal, const Bas
         b.add(node, face_points(b.body, face).front().normal, 1., dent);
     for (const auto& [force, error] :
          {std::pair{&even, &r.pressure_error}, {&dent, &r.node_error}}) {
-      const Compliance c = compliance(*force, factor, shift, rigid, basis.shape, omega);
+      const Compliance c =
+          compliance(basis.balanced(*force, rigid), factor, shift, rigid, basis.shape, omega);
       if (c.full > 0) *error = std::max(*error, 1 - c.reduced / c.full);
     }
   }

@@ -30,7 +30,7 @@ struct Matrices {
   std::vector<double> stiffness, mass;
   std::vector<double> damping = {};  ///< empty: none
   std::vector<double> lumped = {};   ///< the diagonal, if the mass is diagonal; else empty
-  std::vector<std::vector<double>> rigid = {};  ///< rigid motions of the unknowns, for multigrid
+  std::vector<std::vector<double>> rigid = {};  ///< the six rigid motions as values of the unknowns
 };
 
 /// A scheme by name. Automatic: central difference where mass is lumped, nothing damps and Δt is

@@ -11,8 +11,9 @@ trackbed_test(fem_reduction verification trackbed_fem)
 trackbed_test(fem_beam verification trackbed_fem)
 trackbed_test(fem_rail_pad verification trackbed_fem)
 trackbed_test(fem_schemes verification trackbed_fem)
-# Looks at the library's inner parts, and so at deal.II.
+# These look at the library's inner parts, and so at deal.II.
 trackbed_test(fem_convergence verification trackbed_fem trackbed_dealii)
+trackbed_test(fem_modes verification trackbed_fem trackbed_dealii Eigen3::Eigen)
 
 add_executable(fem_step_benchmark ${CMAKE_CURRENT_LIST_DIR}/benchmarks/fem_step_benchmark.cc)
 target_link_libraries(fem_step_benchmark PRIVATE trackbed_fem)
