@@ -68,6 +68,19 @@ struct Mark {
   }
 };
 
+// Whether the vector areas of what was appended add up to nothing, within 1e-10 of their size: the
+// volume is that sure.
+bool closes(const Mark& mark, const OverlapWorkspace& work) {
+  Vec3 sum = Vec3::Zero();
+  double squares = 0;
+  const auto add = [&](const std::vector<OverlapPiece>& pieces, std::size_t from) {
+    for (std::size_t i = from; i < pieces.size(); ++i)
+      sum += pieces[i].area, squares += pieces[i].area.squaredNorm();
+  };
+  add(work.a_pieces, mark.a), add(work.b_pieces, mark.b);
+  return sum.squaredNorm() <= 1e-20 * squares;
+}
+
 PlacedBody placed(const ConvexView& v, const Pose& p, const ContactFrame& frame) {
   const Mat3 to_frame = frame.axes.transpose();
   return {v, to_frame * p.R, to_frame * (p.x - frame.origin)};
@@ -119,6 +132,11 @@ bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pos
   if (small == Clipped::too_large) {
     mark.back(work);
     if (!clip_any(body_a, body_b, work)) return false;
+  }
+  if (small != Clipped::tetrahedron && !closes(mark, work)) {
+    mark.back(work);
+    work.feature = {};
+    clip_closed(body_a, body_b, work);
   }
   return sum_moments(small == Clipped::tetrahedron, mark, work, moments);
 }

@@ -1,6 +1,7 @@
-// Inside overlap(): the two ways to the pieces. clip_small keeps polygons in registers and takes
+// Inside overlap(): the ways to the pieces. clip_small keeps polygons in registers and takes
 // pairs whose bodies have at most 64 vertices and faces and whose polygons have at most eight
-// corners; clip_any takes every pair. Same method, same pieces to round-off.
+// corners; clip_any takes every pair. Same method, same pieces to round-off. clip_closed is for the
+// few pairs whose pieces do not close.
 #pragma once
 #include "dem/contact/overlap.h"
 
@@ -60,5 +61,8 @@ Clipped clip_small(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace&);
 
 /// False when nothing overlaps for certain.
 bool clip_any(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace&);
+
+/// Pieces that close whatever rounding does; slow, allocates. Faces that coincide are a's.
+void clip_closed(const PlacedBody& a, const PlacedBody& b, OverlapWorkspace&);
 
 }  // namespace trackbed::dem

@@ -72,9 +72,11 @@ inline Exact exact_overlap(std::vector<Plane> all, const Vec3& inside) {
       b = c;
     }
   }
+  // Of a lazy number to_double() is true to 1e-5 only, unless it is asked for its exact value.
+  const auto value = [](const Kernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); };
   Exact e;
-  e.volume = CGAL::to_double(volume / 6);
-  for (int i = 0; i < 3; ++i) e.centroid(i) = inside(i) + CGAL::to_double(first[i] / (4 * volume));
+  e.volume = value(volume / 6);
+  for (int i = 0; i < 3; ++i) e.centroid(i) = inside(i) + value(first[i] / (4 * volume));
   return e;
 }
 
