@@ -23,6 +23,14 @@ TEST(TwoMasses, a_lagged_surface_grows) {
   EXPECT_NEAR(growth(.1, exchange("lagged")), 1.8e-3, .05e-3);
 }
 
+TEST(TwoMasses, growth_has_the_order_of_its_schedule) {
+  const auto order = [](const char* name) {
+    return std::log2(growth(.2, exchange(name)) / growth(.1, exchange(name)));
+  };
+  EXPECT_NEAR(order("predicted"), 4, .05);
+  EXPECT_NEAR(order("lagged"), 2, .1);
+}
+
 // Eigenvalues of the 9 x 9 map of this schedule, written down by hand and solved elsewhere.
 TEST(TwoMasses, several_steps_are_damped_up_to_the_limit) {
   const std::pair<int, double> expected[] = {

@@ -7,7 +7,7 @@
 #include "dem/grain/dilated_shape.h"
 #include "dem/grain/random.h"
 #include "dem/grain/voronoi.h"
-#include "tests/unit/grain_solids.h"
+#include "known/dilated_cells.h"
 
 namespace trackbed::dem {
 namespace {
@@ -39,6 +39,23 @@ TEST(Dilated, CubeAndTetrahedron) {
     const double one = c.inertia > 0 ? c.inertia : p.inertia(0, 0);
     EXPECT_LT((p.inertia - one * Mat3::Identity()).norm(), 2e-8);  // isotropic
   }
+}
+
+// Small cells come to the same with more than first order (mean over a few numbers: counting
+// jumps).
+TEST(Dilated, CellsConvergeToSteiner) {
+  const double volume = 1 + 6 * .2 + 3 * M_PI * .04 + 4 / 3. * M_PI * .008;
+  EXPECT_NEAR(dilated_volume({make_box({1, 1, 1}), .2}), volume, 1e-14);
+  const double inertia = mass_properties(DilatedPolyhedron{make_box({1, 1, 1}), .2}).inertia(0, 0);
+  double coarse = 0, fine = 0;
+  for (int n = 0; n < 6; ++n) {
+    const known::CellSum a = known::dilated_cube_by_cells(.2, 12 + n),
+                         b = known::dilated_cube_by_cells(.2, 8 * (12 + n));
+    coarse += std::abs(a.volume / volume - 1) + std::abs(a.inertia / inertia - 1);
+    fine += std::abs(b.volume / volume - 1) + std::abs(b.inertia / inertia - 1);
+  }
+  EXPECT_GT(std::log(coarse / fine) / std::log(8.), 1.2);
+  EXPECT_LT(fine / 12, 2e-3);
 }
 
 // A box of edge e -> 0 is a ball; a rod is a spherocylinder.

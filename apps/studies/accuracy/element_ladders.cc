@@ -1,0 +1,109 @@
+#include <cmath>
+
+#include "fem/elastic_body.h"
+#include "known/manufactured_solution.h"
+#include "known/thick_cylinder.h"
+#include "ladder.h"
+
+namespace trackbed::study {
+namespace {
+
+using namespace fem;
+
+struct Kind {
+  const char* name;
+  int order;
+  Element element;
+};
+constexpr Kind kStandard{"Q1", 1, Element::standard},
+    kIncompatible{"Q1 with incompatible modes", 1, Element::incompatible},
+    kMeanDilatation{"Q1 with mean dilatation", 1, Element::b_bar},
+    kQuadratic{"Q2", 2, Element::standard},
+    kQuadraticMean{"Q2 with mean dilatation", 2, Element::b_bar};
+
+Ladder manufactured(const Kind& kind, const std::vector<int>& cells) {
+  Ladder l{std::string("elements, ") + kind.name,
+           "cells along an edge",
+           "L2 norm of the error of a manufactured solution (no unit)",
+           "unknowns",
+           "assembly and solve",
+           std::to_string(kind.order + 1),
+           {}};
+  for (const int n : cells) {
+    known::Errors e{};
+    const double seconds =
+        seconds_of([&] { e = known::manufactured_error(kind.order, kind.element, n); });
+    l.rungs.push_back({std::to_string(n), 1. / n, e.value, seconds, double(e.unknowns)});
+  }
+  return l;
+}
+
+// A cantilever of 2.6 x 0.28 x 0.2 m without Poisson's ratio under an end load: Timoshenko's beam.
+Ladder bending(const Kind& kind) {
+  Ladder l{std::string("bending, ") + kind.name,
+           "cells along x over the height",
+           "tip deflection against Timoshenko's beam",
+           "unknowns",
+           "assembly and solve",
+           "",
+           {}};
+  const double exact =
+      1000 * (std::pow(2.6, 3) / (3 * 40e9 * .28 * .008 / 12) + 2.6 / (20e9 * .28 * .2 * 5 / 6));
+  for (const int n : {1, 2, 4}) {
+    double error = 0, unknowns = 0;
+    const double seconds = seconds_of([&] {
+      ElasticBodyParameters p;
+      p.mesh.lengths = {2.6, .28, .2};
+      p.mesh.elements = {13 * n, n, n};
+      p.materials = {{"concrete", 40e9, 0., 2500}};
+      p.order = kind.order;
+      p.element = kind.element;
+      p.supports = {{"x_min", Support::fixed}};
+      p.loads = {{"end", "x_max"}};
+      ElasticBody b(p);
+      b.set_load(0, 1000);
+      b.solve_static();
+      error = std::abs(-b.load_displacement(0)[2] / exact - 1), unknowns = b.unknowns();
+    });
+    l.rungs.push_back(
+        {std::to_string(13 * n) + " x " + std::to_string(n), 1. / n, error, seconds, unknowns});
+  }
+  return l;
+}
+
+Ladder cylinder(const Kind& kind, const std::string& mesh) {
+  Ladder l{std::string("near-incompressible, ") + kind.name,
+           "cells along the radius",
+           "inner displacement of a thick cylinder at a Poisson ratio of .4999 against Lame's",
+           "cells",
+           "reading the mesh, assembly and solve",
+           "",
+           {}};
+  for (const int n : {5, 10, 20}) {
+    double ratio = 0;
+    const double seconds = seconds_of(
+        [&] { ratio = known::cylinder_ratio(mesh, kind.order, kind.element, n, 2 * n); });
+    l.rungs.push_back({std::to_string(n), 1. / n, std::abs(ratio - 1), seconds, 2. * n * n});
+  }
+  return l;
+}
+
+}  // namespace
+
+std::vector<Ladder> element_ladders(const std::string& scratch) {
+  const std::string mesh = scratch + "/cylinder.msh";
+  known::manufactured_error(1, Element::standard, 2);  // libraries set up: no rung pays for it
+  return {manufactured(kStandard, {4, 8, 16}),
+          manufactured(kIncompatible, {4, 8, 16}),
+          manufactured(kQuadratic, {2, 4, 8}),
+          bending(kStandard),
+          bending(kIncompatible),
+          bending(kQuadratic),
+          cylinder(kStandard, mesh),
+          cylinder(kMeanDilatation, mesh),
+          cylinder(kIncompatible, mesh),
+          cylinder(kQuadratic, mesh),
+          cylinder(kQuadraticMean, mesh)};
+}
+
+}  // namespace trackbed::study
