@@ -8,6 +8,7 @@ set_tests_properties(unit/forbidden_includes PROPERTIES LABELS unit)
 
 trackbed_test(apps_parameters unit trackbed_program)
 trackbed_test(apps_output unit trackbed_program)
+trackbed_test(apps_grain_tests unit trackbed_program)
 trackbed_test(apps_cost unit trackbed_program)
 trackbed_test(apps_effects unit trackbed_program)
 foreach(name apps_cost apps_effects)

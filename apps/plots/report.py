@@ -11,6 +11,7 @@ import bed_picture  # noqa: E402
 import figures  # noqa: E402
 import measures  # noqa: E402
 import page  # noqa: E402
+import strength  # noqa: E402
 import style  # noqa: E402
 from read_run import Missing, Run  # noqa: E402
 from style import number  # noqa: E402
@@ -230,10 +231,16 @@ def build(folder, with_pictures=True, width=None):
     """Writes every figure and the page; returns the page's path."""
     style.use()
     run = Run(folder)
-    parts = [headline(run)]
+    tested = strength.figures(run)   # then there are no load cycles
+    if tested:
+        found, why = attempt(strength.table, run)
+        parts = [found if why is None else page.missing("The table of strengths", why)]
+    else:
+        parts = [headline(run)]
     if with_pictures:
         parts.append(pictures(run, folder, width))
-    for title, curves in CURVES:
+    cyclic = ("Settlement", "Under the sleeper")
+    for title, curves in [("Curves", tested), *(c for c in CURVES if c[0] not in cyclic)] if tested else CURVES:
         shown = []
         if title == "The bed" and os.path.exists(os.path.join(folder, "friction_path.csv")):
             curves = [*curves, ("friction_path", "Quasi-vibration", figures.friction_path)]
@@ -250,9 +257,11 @@ def build(folder, with_pictures=True, width=None):
         parts.append(zones(run))
     parts.append(limits(run))
     parts.append(effects(run))
-    parts.append(caution(run))
+    if not tested:
+        parts.append(caution(run))
     out = os.path.join(folder, "report.html")
-    page.write(out, run.title, "Trackbed: settlement of a ballast bed under cyclic load", parts,
+    subject = "a test of the grains" if tested else "settlement of a ballast bed under cyclic load"
+    page.write(out, run.title, f"Trackbed: {subject}", parts,
                "Files beside this page: cycles.csv, history.csv, energy.csv and the others hold every number shown; "
                "snapshots.xdmf and structure_*.pvd open in ParaView; scene.resolved.prm repeats the run. SI units "
                "in the files.")

@@ -6,6 +6,7 @@
 
 #include "apps/trackbed/commands.h"
 #include "apps/trackbed/grain_estimate.h"
+#include "apps/trackbed/grain_tests/grain_tests.h"
 #include "apps/trackbed/plan.h"
 #include "apps/trackbed/progress.h"
 #include "apps/trackbed/read_scene.h"
@@ -59,6 +60,38 @@ void print_library(const Scene& scene) {
   std::printf("\n");
 }
 
+void print_sleeper_and_load(const Scene& scene) {
+  std::printf("Sleeper     %s, %g x %g x %g m\n", scene.sleeper.model.c_str(), scene.sleeper.length,
+              scene.sleeper.width, scene.sleeper.height);
+  std::printf("Subgrade    %s\n", scene.subgrade.model.c_str());
+  std::printf("Load        %g to %g kN at %g Hz, %d cycles\n", 1e-3 * scene.loading.least,
+              1e-3 * scene.loading.largest, scene.loading.frequency, scene.loading.cycles);
+}
+
+/// The mean grain size by mass is that of the classes' middles.
+void print_test(const Scene& scene) {
+  const GrainTestScene& t = scene.test;
+  std::printf("Test        %s", t.type.c_str());
+  if (t.type != "angle_of_repose") {
+    std::printf(", %s stress", t.type == "triaxial" ? "confining" : "normal");
+    for (const double p : t.stresses) std::printf(" %g", 1e-3 * p);
+    std::printf(" kPa");
+  }
+  if (t.type == "triaxial")
+    std::printf(", to %g %% at %g /s", 100 * t.largest_strain, t.strain_rate);
+  if (t.type == "direct_shear") std::printf(", %g mm at %g m/s", 1e3 * t.travel, t.speed);
+  if (t.type == "angle_of_repose")
+    std::printf(", wall lifted at %g m/s, %g m of floor", t.speed, t.floor_length);
+  std::printf("\n");
+  double size = 0, share = 0;
+  for (const auto& k : gradation_classes(scene))
+    size += k.share * (k.lower + k.upper) / 2, share += k.share;
+  const double inertial = inertial_number(scene, size / share);
+  if (inertial > 0)
+    std::printf("            inertial number %.2g%s\n", inertial,
+                inertial > kQuasiStatic ? ", over 1e-3: not quasi-static, too fast" : "");
+}
+
 void print_effects(const Plan& plan) {
   std::printf("\nOn\n");
   for (const auto& e : plan.effects)
@@ -88,11 +121,10 @@ int check_command(const CheckOptions& options) {
               scene.container.width, scene.container.depth,
               scene.container.periodic ? ", periodic along the track" : "",
               scene.container.half ? ", half by symmetry" : "");
-  std::printf("Sleeper     %s, %g x %g x %g m\n", scene.sleeper.model.c_str(), scene.sleeper.length,
-              scene.sleeper.width, scene.sleeper.height);
-  std::printf("Subgrade    %s\n", scene.subgrade.model.c_str());
-  std::printf("Load        %g to %g kN at %g Hz, %d cycles\n", 1e-3 * scene.loading.least,
-              1e-3 * scene.loading.largest, scene.loading.frequency, scene.loading.cycles);
+  if (scene.test.on())
+    print_test(scene);
+  else
+    print_sleeper_and_load(scene);
   print_grains(scene, plan);
   print_library(scene);
   print_effects(plan);

@@ -34,6 +34,10 @@ std::vector<std::string> waveforms() { return {"sine", "haversine", "triangle", 
 
 std::vector<std::string> reductions() { return {"none", "condensed", "modal"}; }
 
+std::vector<std::string> grain_tests() {
+  return {"none", "angle_of_repose", "direct_shear", "triaxial"};
+}
+
 std::vector<std::string> time_schemes() { return fem::time_scheme_names(); }
 
 std::vector<std::string> linear_solvers() { return fem::solver_names(); }

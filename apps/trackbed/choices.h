@@ -16,6 +16,7 @@ std::vector<std::string> round_laws();
 std::vector<std::string> subgrade_models();  ///< "rigid" first
 std::vector<std::string> waveforms();
 std::vector<std::string> reductions();
+std::vector<std::string> grain_tests();  ///< "none" first
 std::vector<std::string> time_schemes();
 std::vector<std::string> linear_solvers();
 std::vector<std::string> exchange_schedules();  ///< the default first

@@ -297,6 +297,37 @@ void add_loading(Section s) {
            "of the actuator between its drive and the sleeper");
 }
 
+void add_grain_test(Section s) {
+  s.choice(
+      "Type", "none", grain_tests(),
+      "test of the packed grains in place of the load cycles, to calibrate them (strength.csv): "
+      "angle_of_repose, x_max lifted; direct_shear, the upper half of the box moved along x; "
+      "triaxial, frictionless walls without gravity");
+  s.numbers("Stresses", "25e3, 50e3, 100e3", "Pa", 1, 1e9,
+            "normal (direct_shear) or confining (triaxial), each from the same packing");
+  s.number("Speed", "0.02", "m/s", 1e-6, 10,
+           "of the upper half box (direct_shear) or of the lifted wall (angle_of_repose)");
+  s.number("Travel", "0.03", "m", 1e-6, 10, "of the upper half box along x (direct_shear)");
+  s.number("Shear plane", "0.5", "-", 0.05, 0.95,
+           "its height over the height of the packed bed (direct_shear)");
+  s.number("Strain rate", "0.1", "1/s", 1e-6, 100, "axial (triaxial), of the consolidated height");
+  s.number("Largest strain", "0.15", "-", 1e-6, 0.5, "axial, at which a triaxial test ends");
+  s.number("Consolidation time", "0.5", "s", 1e-6, 1e4,
+           "longest, until each stress is held within Tolerance and the unbalanced force is below "
+           "Packing/Unbalanced force");
+  s.number(
+      "Tolerance", "0.02", "-", 1e-9, 0.5,
+      "of the stresses that servos hold, as a share of them; what was kept is in strength.csv");
+  s.integer("Samples", "100", 10, 1e5,
+            "rows of a curve, each the mean over its part of the travel or strain");
+  s.number("Residual share", "0.2", "-", 0.01, 1, "of the curve at its end that is residual");
+  s.number("Floor length", "0.4", "m", 0.01, 20,
+           "beyond the lifted wall (angle_of_repose); it ends at a wall");
+  s.number("Rest time", "4", "s", 1e-6, 1e4,
+           "longest, until the heap lies still by Packing/Quiet (angle_of_repose)");
+  s.integer("Profile planes", "9", 1, 1000, "vertical cuts whose outlines make the profile");
+}
+
 void add_numerics(Section s) {
   s.number("Margin", "0.2", "-", 1e-4, 1, "time step as a share of the stability limit");
   s.number("Packing margin", "0.3", "-", 1e-4, 1, "the same while packing");
@@ -377,6 +408,7 @@ std::vector<Parameter> scene_parameters() {
   const auto models = subgrade_parameters();
   table.insert(table.end(), models.begin(), models.end());
   add_loading({table, "Loading"});
+  add_grain_test({table, "Test"});
   add_numerics({table, "Numerics"});
   add_measures({table, "Measures"});
   add_output({table, "Output"});

@@ -28,7 +28,8 @@ constexpr double parallel_share = 0.9;                  // of the work on grains
 constexpr double bytes_per_grain = 12e3;
 constexpr double bytes_of_program = 150e6;
 // Stages end when the bed is at rest, mostly long before their limit [s].
-constexpr double usual_deposit = 0.5, usual_settling = 0.2, usual_hardening = 0.1;
+constexpr double usual_deposit = 0.5, usual_settling = 0.2, usual_hardening = 0.1,
+                 usual_consolidation = 0.1;
 
 /// A structure is built and takes some steps: no estimate knows a model of the user's own.
 StructureCost measure(fem::Structure& structure, double dt) {
@@ -107,10 +108,11 @@ Plan make_plan(const Scene& scene, int threads) {
     const double limit = dem::expected_limit(sample.bodies, sample.shapes, sample.materials, {}).dt;
     const double dt = given > 0 ? given : stage.margin * limit;
     const double rungs = stage.again ? static_cast<double>(scene.packing.friction_path.size()) : 1;
-    const double usual = stage.name == "deposit"     ? usual_deposit
-                         : stage.name == "hardening" ? usual_hardening
-                         : stage.until_quiet         ? usual_settling * rungs
-                                                     : stage.longest;
+    const double usual = stage.name == "deposit"                     ? usual_deposit
+                         : stage.name == "hardening"                 ? usual_hardening
+                         : stage.until_quiet                         ? usual_settling * rungs
+                         : stage.name.rfind("consolidation", 0) == 0 ? usual_consolidation
+                                                                     : stage.longest;
     const double longest = rungs * stage.longest;
     const double duration = std::min(usual, longest);
     plan.stages.push_back(

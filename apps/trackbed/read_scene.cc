@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/trackbed/check_grain_test.h"
 #include "apps/trackbed/check_packing.h"
 #include "apps/trackbed/check_scene.h"
 #include "apps/trackbed/check_structures.h"
@@ -203,6 +204,25 @@ LoadingScene loading(const Values& v) {
   return l;
 }
 
+GrainTestScene grain_test(const Values& v) {
+  GrainTestScene t{};
+  t.type = v.text("Test/Type");
+  t.stresses = v.numbers("Test/Stresses");
+  t.speed = v.number("Test/Speed");
+  t.travel = v.number("Test/Travel");
+  t.shear_plane = v.number("Test/Shear plane");
+  t.strain_rate = v.number("Test/Strain rate");
+  t.largest_strain = v.number("Test/Largest strain");
+  t.consolidation_time = v.number("Test/Consolidation time");
+  t.tolerance = v.number("Test/Tolerance");
+  t.samples = static_cast<int>(v.integer("Test/Samples"));
+  t.residual_share = v.number("Test/Residual share");
+  t.floor_length = v.number("Test/Floor length");
+  t.rest_time = v.number("Test/Rest time");
+  t.planes = static_cast<int>(v.integer("Test/Profile planes"));
+  return t;
+}
+
 NumericsScene numerics(const Values& v) {
   NumericsScene n{};
   n.margin = v.number("Numerics/Margin");
@@ -276,12 +296,14 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.sleeper = sleeper(values);
   scene.subgrade = subgrade(values);
   scene.loading = loading(values);
+  scene.test = grain_test(values);
   scene.numerics = numerics(values);
   scene.measures = measures(values);
   scene.output = output(values);
   decide(scene);
   check_scene(scene, values);
   check_packing(scene, values);
+  check_grain_test(scene, values);
   check_structures(scene, values);
   return scene;
 }

@@ -151,6 +151,23 @@ struct LoadingScene {
   double push_speed, push_distance, push_stiffness;  ///< [m/s], [m], of the actuator [N/m]
 };
 
+/// A test of the packed grains in place of the load cycles (grain_tests/).
+struct GrainTestScene {
+  std::string type;              ///< "none" | "angle_of_repose" | "direct_shear" | "triaxial"
+  std::vector<double> stresses;  ///< normal or confining [Pa]
+  double speed, travel;          ///< [m/s], [m]
+  double shear_plane;            ///< height over that of the bed
+  double strain_rate, largest_strain;
+  double consolidation_time;  ///< longest [s]
+  double tolerance;           ///< of stresses that are held, share
+  int samples;                ///< rows of a curve
+  double residual_share;      ///< of a curve, at its end
+  double floor_length;        ///< beyond the lifted wall [m]
+  double rest_time;           ///< longest [s]
+  int planes;                 ///< of the profile
+  bool on() const { return type != "none"; }
+};
+
 struct NumericsScene {
   double margin;  ///< share of the stability limit
   double packing_margin;
@@ -198,6 +215,7 @@ struct Scene {
   SleeperScene sleeper;
   SubgradeScene subgrade;
   LoadingScene loading;
+  GrainTestScene test;
   NumericsScene numerics;
   MeasureScene measures;
   OutputScene output;

@@ -2,6 +2,7 @@
 ctest, one test each; TRACKBED names the program."""
 import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -107,6 +108,21 @@ class SceneTest(unittest.TestCase):
         self.assertGreater(len(files), 2)
         for name in files:
             self.assertEqual(plain(one / name), plain(other / name), f"{name} differs")
+
+    def stop_after(self, stage, output, resume, more=()):
+        """Ctrl-C in the stage that follows `stage`."""
+        command = [PROGRAM, "run", "tiny.prm", "--output", output, "--set", "Packing/Reuse=false",
+                   "--set", "Packing/Folder=packings", *more] + (["--resume"] if resume else [])
+        with subprocess.Popen(command, cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as program:
+            seen = ""
+            for line in program.stderr:
+                seen += line
+                if line.startswith(stage):
+                    program.send_signal(signal.SIGINT)
+            program.stdout.read()
+        self.assertEqual(program.returncode, 128 + signal.SIGINT, seen)
+        self.assertIn("--resume", seen)
 
     def contents(self, folder):
         return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
@@ -489,6 +505,136 @@ class Packings(SceneTest):
         self.assertLess(ways[len(ways) // 2], 5e-4)
 
 
+class GrainTests(SceneTest):
+    """Tests of grains: blocks with a known answer, and tiny.prm's stones for what holds for any grains."""
+    RIGID = {"Sleeper/Model": "rigid", "Subgrade/Model": "rigid", "Packing/Method": "deposit",
+             "Output/Snapshot interval": "0"}
+
+    def write_cubes(self, *bottoms):
+        """blocks.off: cubes of 0.1 m on each other."""
+        corners, faces = [], []
+        for z in bottoms:
+            n = len(corners)
+            corners += [(x, y, z + up) for up in (0, .1) for y in (-.05, .05) for x in (-.05, .05)]
+            faces += [[n + k for k in f] for f in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3),
+                                                   (0, 4, 6, 2), (1, 3, 7, 5))]
+        lines = ["OFF", f"{len(corners)} {len(faces)} 0", *(" ".join(map(repr, c)) for c in corners),
+                 *("4 " + " ".join(map(str, f)) for f in faces), ""]
+        (self.folder / "blocks.off").write_text("\n".join(lines))
+
+    def cubes(self, output, change):
+        """A run of cubes that fill their box; its strength by state and stress, and its curve by stress."""
+        run = self.run_scene(output, change={
+            **self.RIGID, "Packing/Start from": "blocks.off", "Container/Length": "0.1", "Container/Width": "0.1",
+            "Packing/Quiet": "1e-8", "Contact/Packing modulus": "1e8", "Contact/Local damping": "0.2",
+            "Test/Samples": "20", **change})
+        strength = {(r["state"], r["stress_Pa"]): {k: float(v) if v else None for k, v in r.items()
+                                                   if k not in ("test", "state")}
+                    for r in rows(run / "strength.csv")}
+        curve = [{k: float(v) for k, v in r.items()} for r in rows(run / f"{change['Test/Type']}.csv")]
+        (closure,) = (float(r["value"]) for r in rows(run / "summary.csv") if r["quantity"] == "closure")
+        self.assertLess(closure, 1e-3)
+        return strength, curve
+
+    def test_shear_of_two_blocks(self):
+        """Two blocks slide on each other: shear stress is friction times normal stress. The pushed one tilts
+        with its contacts' compliance, which is why they are stiff here; with a hundredth of this modulus the
+        ratio is 0.3 % too large."""
+        self.write_cubes(0, .1)
+        strength, curve = self.cubes("shear", {
+            "Test/Type": "direct_shear", "Test/Stresses": "25e3, 50e3", "Test/Travel": "0.001",
+            "Test/Speed": "0.005", "Container/Ballast depth": "0.2", "Contact/Contact modulus": "1e10",
+            "Grains/Friction": "0.5", "Container/Friction": "0.5", "Subgrade/Friction": "0.5"})
+        for stress in ("25000", "50000"):
+            residual = strength["residual", stress]
+            self.assertAlmostEqual(residual["ratio"], 0.5, delta=2e-4)
+            self.assertAlmostEqual(residual["friction_angle_deg"], 26.565, delta=0.01)
+            end = [r for r in curve if r["stress_Pa"] == float(stress)][-1]
+            self.assertAlmostEqual(end["normal_stress_Pa"], float(stress), delta=1e-4 * float(stress))
+            self.assertAlmostEqual(end["shear_force_N"], 0.5 * float(stress) * 0.01, delta=2e-4 * float(stress) * 0.01)
+        fit = strength["residual fit", ""]
+        self.assertAlmostEqual(fit["friction_angle_deg"], 26.565, delta=0.02)
+        self.assertLess(abs(fit["cohesion_Pa"]), 5)
+        self.assertFalse((self.folder / "shear" / "test_bed.h5").exists())
+
+    def test_triaxial_of_one_cube(self):
+        """One cube between six walls: its sides stay at the confining pressure, and its axial stress grows with
+        the stiffness of two faces in series, F = c E sqrt(A) d, c = 2/(3 sqrt(pi)), d the way of the top."""
+        self.write_cubes(0)
+        strength, curve = self.cubes("cube", {
+            "Test/Type": "triaxial", "Test/Stresses": "25e3, 50e3", "Test/Largest strain": "0.005",
+            "Test/Strain rate": "0.05", "Container/Ballast depth": "0.1", "Contact/Contact modulus": "1e8",
+            "Test/Tolerance": "2e-3"})
+        stiffness = 2 / (3 * math.sqrt(math.pi)) * 1e8   # of stress over strain: E sqrt(A) H / A = E
+        for stress in (25e3, 50e3):
+            part = [r for r in curve if r["stress_Pa"] == stress]
+            self.assertEqual(len(part), 20)
+            for r in part:
+                for side in ("sigma3_x_Pa", "sigma3_y_Pa"):
+                    self.assertAlmostEqual(r[side], stress, delta=2e-3 * stress)
+                # The specimen's area has shrunk by its sides' overlaps, a few 1e-4.
+                self.assertAlmostEqual(r["sigma1_Pa"], stress + stiffness * r["axial_strain"],
+                                       delta=2e-3 * (stress + stiffness * r["axial_strain"]))
+                self.assertAlmostEqual(r["volumetric_strain"], r["axial_strain"], delta=2e-5)
+                self.assertAlmostEqual(r["deviator_Pa"], r["sigma1_Pa"] - r["sigma3_Pa"], delta=1e-6 * r["sigma1_Pa"])
+                sine = (r["sigma1_Pa"] - r["sigma3_Pa"]) / (r["sigma1_Pa"] + r["sigma3_Pa"])
+                self.assertAlmostEqual(r["mobilised_angle_deg"], math.degrees(math.asin(sine)), delta=1e-6)
+            self.assertLess(strength["peak", f"{stress:g}"]["held_within"], 2e-3)
+
+    # Some dozen soft stones, consolidated and compressed by a little: not a test of strength.
+    STONES = {**RIGID, "Packing/Unbalanced force": "0.1", "Contact/Contact modulus": "2e7",
+              "Contact/Local damping": "0.3", "Test/Samples": "10", "Test/Type": "triaxial",
+              "Test/Stresses": "2e3, 4e3", "Test/Strain rate": "0.5", "Test/Largest strain": "0.01",
+              "Test/Tolerance": "0.05"}
+
+    def test_triaxial_of_stones(self):
+        """The top hardly moves here: all sides carry the confining stress within the tolerance, the state stays
+        isotropic; the ledger closes; threads change nothing."""
+        held = {**self.STONES, "Test/Strain rate": "1e-3", "Test/Largest strain": "2e-5", "Test/Stresses": "4e3",
+                "Test/Tolerance": "0.02"}
+        one = self.run_scene("one", "--threads", "1", change=held)
+        curve = [{k: float(v) for k, v in r.items()} for r in rows(one / "triaxial.csv")]
+        self.assertEqual(len(curve), 10)
+        for column in ("sigma1_Pa", "sigma3_x_Pa", "sigma3_y_Pa"):
+            self.assertAlmostEqual(curve[0][column], 4e3, delta=0.05 * 4e3, msg=column)
+            self.assertAlmostEqual(curve[-1][column], 4e3, delta=0.1 * 4e3, msg=column)
+        (closure,) = (float(r["value"]) for r in rows(one / "summary.csv") if r["quantity"] == "closure")
+        self.assertLess(closure, 0.01)
+        self.assert_same(one, self.run_scene("two", "--threads", "2", change={**held, "Packing/Reuse": "false"}))
+
+    def test_resume_of_a_grain_test(self):
+        change = {**self.STONES, "Packing/Reuse": "false"}
+        whole = self.run_scene("whole", change=change)
+        more = [word for path, value in change.items() for word in ("--set", f"{path}={value}")]
+        self.stop_after("consolidation 2", "parts", False, more)   # in the first compression
+        self.stop_after("compression 2", "parts", True, more)      # in the second consolidation
+        parts = self.run_scene("parts", "--resume", change=change)
+        self.assert_same(whole, parts)
+
+    def test_angle_of_repose(self):
+        """The lifted wall lets the stones out: none is lost, the heap is lower, and its profile holds them."""
+        run = self.run_scene("heap", change={
+            **self.RIGID, "Test/Type": "angle_of_repose", "Test/Speed": "1", "Test/Floor length": "0.2",
+            "Contact/Packing damping": "0.6", "Contact/Contact modulus": "2e7"})
+        profile = [{k: float(v) for k, v in r.items()} for r in rows(run / "repose.csv")]
+        self.assertAlmostEqual(profile[0]["distance_m"] * 2 * len(profile), 0.13 + 0.2, delta=1e-9)
+        self.assertGreater(max(r["height_m"] for r in profile if r["distance_m"] > 0.13), 0.01)
+        (row,) = rows(run / "strength.csv")
+        self.assertEqual((row["test"], row["state"]), ("angle_of_repose", "repose"))
+        energy = [{k: float(v) for k, v in r.items()} for r in rows(run / "energy.csv")]
+        fallen = max(r["gravity_J"] for r in energy) - energy[-1]["gravity_J"]
+        self.assertGreater(fallen, 0.01)
+        self.assertLess(max(abs(r["closure_J"]) for r in energy), 0.01 * fallen)
+
+    def test_check_of_a_grain_test(self):
+        more = [f"--set={path}={value}" for path, value in self.STONES.items()]
+        text = self.trackbed("check", "tiny.prm", *more).stdout
+        for word in ("Test        triaxial, confining stress 2 4 kPa", "inertial number", "not quasi-static",
+                     "consolidation 2 kPa", "compression 4 kPa"):
+            self.assertIn(word, text)
+        self.assertNotIn("Sleeper ", text)
+
+
 class SameAnswer(SceneTest):
     def test_threads(self):
         # A hundred grains: enough for a second thread.
@@ -513,21 +659,6 @@ class SameAnswer(SceneTest):
         self.assertEqual(rows(run / "history.csv")[0]["stage"], "seating")
         self.assert_same(run, self.run_scene("fresh", change={"Packing/Reuse": "false"}),
                          ["cycles.csv", "energy.csv", "compaction.csv"])
-
-    def stop_after(self, stage, output, resume, more=()):
-        """Ctrl-C in the stage that follows `stage`."""
-        command = [PROGRAM, "run", "tiny.prm", "--output", output, "--set", "Packing/Reuse=false",
-                   "--set", "Packing/Folder=packings", *more] + (["--resume"] if resume else [])
-        with subprocess.Popen(command, cwd=self.folder, text=True, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE) as program:
-            seen = ""
-            for line in program.stderr:
-                seen += line
-                if line.startswith(stage):
-                    program.send_signal(signal.SIGINT)
-            program.stdout.read()
-        self.assertEqual(program.returncode, 128 + signal.SIGINT, seen)
-        self.assertIn("--resume", seen)
 
     def test_resume(self):
         change = {"Packing/Reuse": "false"}

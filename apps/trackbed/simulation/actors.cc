@@ -22,8 +22,6 @@ namespace {
 using dem::Vec3;
 
 constexpr double kClearance = 1e-4;  // between things put in and what is there [m]
-constexpr double kThickness = 0.25;  // thickness of walls, more than the largest grain [m]
-constexpr double kTop = 5;           // of the walls, higher than any loose heap [m]
 constexpr double kPlateGap = 5e-3;   // between plate and walls [m]
 
 double largest_sieve(const dem::ShapeTable& shapes) {
@@ -96,21 +94,21 @@ void add_walls(Run& run) {
   const Layout& l = run.layout;
   dem::Bodies& b = run.world.bodies;
   dem::ShapeTable& shapes = run.world.shapes;
-  const Vec3 low = l.low - Vec3(0, 0, kThickness), high(l.high.x(), l.high.y(), kTop);
+  const Vec3 low = l.low - Vec3(0, 0, wall_thickness), high(l.high.x(), l.high.y(), wall_top);
   const int before = b.size();
   // Walls reach below the floor and the floor beyond the walls, so that edges are closed.
   const auto side = [&](unsigned which, int material) {
-    dem::add_container(b, shapes, low, high, kThickness, material, which);
+    dem::add_container(b, shapes, low, high, wall_thickness, material, which);
   };
   if (c.shape == "cylinder") {
     dem::add_round_wall(b, shapes, 0.5 * (l.low + l.high), 0.5 * c.length, low.z(), high.z(),
-                        kThickness, kWall, c.sides);
+                        wall_thickness, kWall, c.sides);
   } else {
     side(dem::kLowX, c.half ? kMirror : kWall);
     side(dem::kHighX, kWall);
     if (!c.periodic) side(dem::kLowY | dem::kHighY, kWall);
   }
-  dem::add_container(b, shapes, l.low, high, kThickness, kSubgrade, dem::kBase);
+  dem::add_container(b, shapes, l.low, high, wall_thickness, kSubgrade, dem::kBase);
   run.actors.walls = b.size() - before;
   run.actors.floor = true;
 }

@@ -5,6 +5,9 @@
 
 namespace trackbed::apps {
 
+constexpr double wall_thickness = 0.25;  ///< more than the largest grain [m]
+constexpr double wall_top = 5;           ///< higher than any loose heap [m]
+
 /// Places and adds grains on those there are: everywhere, or (`beside`) around the sleeper.
 void pour_grains(Run&, const GrainBatch&, bool beside);
 

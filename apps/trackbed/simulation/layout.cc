@@ -38,8 +38,10 @@ Layout make_layout(const Scene& s) {
   const double sleeper =
       s.sleeper.length * s.sleeper.width * std::min(c.fill_height, s.sleeper.height);
   l.bed_mass = s.packing.bulk_density * below * c.width * round * l.share;
-  l.fill_mass =
-      s.packing.bulk_density * std::max(0.0, beside * c.width * round - sleeper) * l.share;
+  // A test of grains has none.
+  l.fill_mass = s.test.on() ? 0
+                            : s.packing.bulk_density *
+                                  std::max(0.0, beside * c.width * round - sleeper) * l.share;
   return l;
 }
 

@@ -40,6 +40,7 @@ std::string packing_name(const Scene& scene) {
   std::string text = kVersion;
   for (const auto& [key, value] : scene.values)
     if (matters(key)) text += "\n" + key + "=" + value;
+  if (scene.test.on()) text += "\nwithout a sleeper";
   if (!scene.packing.start_from.empty())
     for (const std::string& file : dem::packing_files(scene.packing.start_from))
       text += "\n" + read_text(file);

@@ -19,19 +19,6 @@ std::string kept_bed(const Run& run, int point) {
   return run.folder + name;
 }
 
-// The bed of an earlier point; time, and what the run knows of itself, go on.
-void bring_back(Run& run, int point) {
-  const StageState stage = run.stage;
-  const std::vector<PathPoint> path = run.path;
-  const double time = run.world.time;
-  const long step = run.world.step;
-  const coupling::StepTimes times = run.world.times;
-  load_run(kept_bed(run, point), run);
-  run.stage = stage;
-  run.path = path;
-  run.world.time = time, run.world.step = step, run.world.times = times;
-}
-
 // Anew each time: relative densities are known last.
 void write_path(const Run& run) {
   const std::size_t rungs = run.scene.packing.friction_path.size();
@@ -114,7 +101,8 @@ void begin_trial(Run& run) {
   const double before = run.path[step.point].point.friction;
   run.stage.friction = step.done ? before : step.friction;
   run.stage.stop_at = step.stop_at, run.stage.stop_friction = before;
-  if (step.point != static_cast<int>(run.path.size()) - 1) bring_back(run, step.point);
+  if (step.point != static_cast<int>(run.path.size()) - 1)
+    restore_bed(kept_bed(run, step.point), run);
 }
 
 bool stop_bed(Run& run) {
@@ -132,7 +120,8 @@ bool trial_follows(Run& run) {
   if (!before.done) note_point(run, before.point, before.stop_at);
   const dem::FrictionStep step = step_of(run);
   if (!step.done) return true;
-  if (step.point != static_cast<int>(run.path.size()) - 1) bring_back(run, step.point);
+  if (step.point != static_cast<int>(run.path.size()) - 1)
+    restore_bed(kept_bed(run, step.point), run);
   run.stage.friction = run.path[step.point].point.friction;
   return false;
 }

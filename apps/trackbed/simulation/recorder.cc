@@ -86,8 +86,9 @@ void Recorder::energy(Run& run, const Stage& stage) {
                f.work + f.prescribed, f.friction, f.local_damping, f.contact_damping,
                f.structure_damping, f.structure_numerical, f.transfer_error, open,
                f.structure_plastic});
-  run.stage.work_in += std::max(0.0, f.work - run.stage.last_work);
-  run.stage.last_work = f.work;
+  const double work = f.work + f.prescribed;
+  run.stage.work_in += std::max(0.0, work - run.stage.last_work);
+  run.stage.last_work = work;
   run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));
   run.stage.exchange_gain = std::max(run.stage.exchange_gain, -f.transfer_error);
 }

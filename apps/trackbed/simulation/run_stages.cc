@@ -13,6 +13,7 @@
 #include "apps/trackbed/simulation/subgrade_bearing.h"
 #include "base/error.h"
 #include "coupling/time_step.h"
+#include "dem/motion/energy.h"
 #include "dem/motion/monitor.h"
 #include "dem/packing/equilibrium.h"
 #include "dem/packing/packed_grains.h"
@@ -141,6 +142,7 @@ void monitor(Run& run, const Stage& stage, Progress& progress) {
   dem::Region region;
   const dem::Vec3 room = dem::Vec3::Constant(0.3);
   region.low = l.low - room, region.high = l.high + room;
+  if (run.scene.test.type == "angle_of_repose") region.high.x() += run.scene.test.floor_length;
   region.high.z() = HUGE_VAL;
   for (int k = 0; k < 2; ++k)
     if (l.period[k] > 0) region.low[k] = -HUGE_VAL, region.high[k] = HUGE_VAL;
@@ -172,21 +174,27 @@ void monitor(Run& run, const Stage& stage, Progress& progress) {
   }
 }
 
-// At the end of each load cycle: no more energy from nowhere than the scene allows.
+// At the end of each load cycle, or of a stage of a test of grains, where the height that the
+// grains gave up counts as work too: no more energy from nowhere than the scene allows.
 void check_ledger(const Run& run, const Stage& stage) {
   const StageState& s = run.stage;
   const double allowed = run.scene.numerics.closure;
-  if (!stage.ledger || !(s.work_in > 0)) return;
-  const bool open = s.worst_closure > allowed * s.work_in;
+  double put_in = s.work_in;
+  if (stage.ledger && stage.control)
+    put_in +=
+        std::max(0.0, run.world.start.gravity -
+                          dem::gravity_energy(run.world.bodies, step_context(run, stage).gravity));
+  if (!stage.ledger || !(put_in > 0)) return;
+  const bool open = s.worst_closure > allowed * put_in;
   const double amount = open ? s.worst_closure : s.exchange_gain;
-  if (!open && !(s.exchange_gain > allowed * s.work_in)) return;
+  if (!open && !(s.exchange_gain > allowed * put_in)) return;
   char text[400];
   std::snprintf(text, sizeof text,
                 "step %ld (%s, %.4g s): %s %.3g J, %.2g %% of the %.3g J put in; Numerics/Closure "
                 "allows %.2g %%. %s",
                 run.world.step, stage.name.c_str(), run.world.time,
                 open ? "the energy ledger is open by" : "the exchange with the structures made",
-                amount, 100 * amount / s.work_in, s.work_in, 100 * allowed,
+                amount, 100 * amount / put_in, put_in, 100 * allowed,
                 open ? "The time step is probably too large for the contacts: halve "
                        "Numerics/Margin or Numerics/Time step."
                      : "Its steps are too long, or it is lagged: Numerics/Exchange = predicted or "
@@ -220,7 +228,8 @@ bool at_rest(const Run& run, const Stage& stage) {
   return run.world.time - run.stage.start > 0.05 && stage.until_quiet &&
          kinetic < run.scene.packing.quiet * weight &&
          (stage.unbalanced <= 0 ||
-          dem::unbalanced_share(b, run.world.pairs, dem::StepContext{}.gravity) < stage.unbalanced);
+          dem::unbalanced_share(b, run.world.pairs, step_context(run, stage).gravity) <
+              stage.unbalanced);
 }
 
 // What is recorded at the trough and at the peak of a load cycle. True: the stage is over.
@@ -332,6 +341,7 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     while (!over) {
       coupling::advance(run.world, step_context(run, stage), drive);
       s.steps += taken;
+      if (stage.control) over = stage.control(run, stage);
       const bool look = reached(s, kMonitorSteps, taken);
       if (look) monitor(run, stage, progress);
       if (stage.watch && reached(s, kWatchSteps, taken) && stage.watch(run))
@@ -342,7 +352,7 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
       } else if (out.energy_interval > 0 && reached(s, out.energy_interval, taken))
         recorder.energy(run, stage);
       if (s.steps_per_cycle > 0) {
-        over = record_cycle(run, stage, recorder, folder);
+        over = record_cycle(run, stage, recorder, folder) || over;
         if (s.steps % s.steps_per_cycle == 0) check_ledger(run, stage);
       }
       over = over || (look && at_rest(run, stage)) ||
@@ -357,6 +367,10 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
       }
       const std::chrono::duration<double> since = Clock::now() - saved;
       if (out.checkpoint_interval > 0 && since.count() > 60 * out.checkpoint_interval) checkpoint();
+    }
+    if (stage.control) {
+      recorder.sample(run, stage);
+      check_ledger(run, stage);
     }
     progress.finish(run.world.time, detail(run));
     const bool again = stage.again && stage.again(run);

@@ -69,6 +69,18 @@ void visit(A& a, std::vector<PathPoint>& path) {
 }
 
 template <class A>
+void visit(A& a, GrainTestState& t) {
+  a("test/specimen", t.specimen), a("test/placed", t.placed);
+  std::vector<dem::Vec3> space{t.low, t.high, t.lengths};
+  a("test/space", space);
+  if (space.size() != 3) throw InputError("checkpoint: 'test/space' has another length");
+  t.low = space[0], t.high = space[1], t.lengths = space[2];
+  a("test/plane", t.plane), a("test/size", t.size);
+  a("test/drift", t.drift), a("test/sum", t.sum), a("test/rows", t.rows);
+  a("test/steps", t.steps), a("test/rows_done", t.rows_done);
+}
+
+template <class A>
 void visit(A& a, RunRecords& r) {
   a("records/rows", r.rows);
   a("records/snapshots", r.snapshots.count), a("records/meshes", r.snapshots.meshes);
@@ -94,6 +106,7 @@ void save_run(const std::string& file, Run& run, const RunRecords& records) {
   visit(a, run.actors);
   visit(a, run.stage);
   visit(a, run.path);
+  if (run.scene.test.on()) visit(a, run.test);
   RunRecords copy = records;
   visit(a, copy);
   visit(a, run.world.times);
@@ -111,6 +124,7 @@ RunRecords load_run(const std::string& file, Run& run) {
   visit(a, run.actors);
   visit(a, run.stage);
   visit(a, run.path);
+  if (run.scene.test.on()) visit(a, run.test);
   RunRecords records;
   visit(a, records);
   visit(a, run.world.times);
@@ -121,6 +135,20 @@ RunRecords load_run(const std::string& file, Run& run) {
     coupling::read_surfaces(a, run.world);
   }
   return records;
+}
+
+void restore_bed(const std::string& file, Run& run) {
+  const StageState stage = run.stage;
+  const std::vector<PathPoint> path = run.path;
+  const GrainTestState test = run.test;
+  const double time = run.world.time;
+  const long step = run.world.step;
+  const coupling::StepTimes times = run.world.times;
+  load_run(file, run);
+  run.stage = stage;
+  run.path = path;
+  run.test = test;
+  run.world.time = time, run.world.step = step, run.world.times = times;
 }
 
 }  // namespace trackbed::apps

@@ -20,4 +20,7 @@ void save_run(const std::string& file, Run&, const RunRecords&);
 /// Throws InputError naming the file when it is missing, truncated, or from another scene.
 RunRecords load_run(const std::string& file, Run&);
 
+/// Bodies and contacts of another moment of the run; its time, and what it knows of itself, go on.
+void restore_bed(const std::string& file, Run&);
+
 }  // namespace trackbed::apps

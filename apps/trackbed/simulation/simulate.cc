@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "apps/trackbed/files.h"
+#include "apps/trackbed/grain_tests/grain_tests.h"
+#include "apps/trackbed/grain_tests/walls.h"
 #include "apps/trackbed/simulation/packing_store.h"
 #include "apps/trackbed/simulation/quasi_vibration.h"
 #include "apps/trackbed/simulation/results.h"
@@ -56,6 +58,9 @@ Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& 
     recorder.flush();
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
     write_results(run, folder, wall.count());
+    if (!run.scene.test.on() || options.packing_only) return ending;
+    for (const std::string& line : write_grain_test(run, folder)) progress.note(line);
+    if (ending == Ending::done) forget_test_bed(run);
     return ending;
   };
   if (run.stage.index < packed) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/trackbed/grain_tests/state.h"
 #include "apps/trackbed/scene.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "coupling/world.h"
@@ -68,6 +69,7 @@ struct Run {
   coupling::World world;
   Actors actors;
   StageState stage;
+  GrainTestState test;                          ///< of a test of grains
   std::string folder;                           ///< results go here
   std::vector<PathPoint> path;                  ///< of quasi-vibration, in the order they were made
   std::vector<dem::GrainShape> library;         ///< made when first needed
@@ -87,19 +89,24 @@ struct Stage {
   bool until_quiet = false;
   double unbalanced = 0;  ///< then also the mean unbalanced force is below this share; 0 = any
   bool ledger = false;    ///< opens the energy ledger at its start
+  bool gravity = true;
   std::function<void(Run&)> enter;  ///< changes bodies and surfaces, and stage.friction
   std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
   std::function<double(double)> push;     ///< the actuator's place [m] at that time; empty: no push
   std::function<bool(Run&)> after_cycle;  ///< true: the stage is over
   std::function<bool(Run&)> watch;        ///< often; true: stage.friction has changed
-  std::function<bool(Run&)> again;        ///< once it is over; true: it is entered again
+  /// After every step: prescribed motions of bodies; true: the stage is over. A stage that has it
+  /// closes its energy ledger at its end.
+  std::function<bool(Run&, const Stage&)> control;
+  std::function<bool(Run&)> again;  ///< once it is over; true: it is entered again
 };
 
 /// Deposit, tamping or quasi-vibration, layers, plate off, sleeper and ballast beside it, hardening
 /// to the loading modulus.
 std::vector<Stage> packing_stages(const Scene&);
 
-/// Seating under the least load, then the load cycles, then the push if there is one.
+/// Seating under the least load, then the load cycles, then the push if there is one; or the
+/// scene's test of grains.
 std::vector<Stage> loading_stages(const Scene&);
 
 /// What one step of the stage needs.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/trackbed/grain_tests/grain_tests.h"
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/quasi_vibration.h"
 #include "apps/trackbed/simulation/stage.h"
@@ -82,10 +83,12 @@ std::vector<Stage> packing_stages(const Scene& s) {
     stages.push_back(seams);
   }
 
-  Stage fill = packing_stage(s, "sleeper in");
+  // A test of grains has no sleeper: what it needs besides grains it puts in itself.
+  Stage fill = packing_stage(s, s.test.on() ? "rest" : "sleeper in");
   if (vibrated) fill.friction = s.grains.friction;
   fill.enter = [](Run& run) {
     if (run.actors.plate) remove_moving_body(run);
+    if (run.scene.test.on()) return;
     trim_shoulders(run);
     if (run.layout.fill_mass > 0)
       pour_grains(run, draw_batch(run, run.layout.fill_mass, 1, true), true);
@@ -104,6 +107,7 @@ std::vector<Stage> packing_stages(const Scene& s) {
 }
 
 std::vector<Stage> loading_stages(const Scene& s) {
+  if (s.test.on()) return grain_test_stages(s);
   Stage seating;
   seating.name = "seating";
   seating.modulus = s.contact.modulus;
@@ -148,6 +152,7 @@ std::vector<Stage> loading_stages(const Scene& s) {
 dem::StepContext step_context(const Run& run, const Stage& stage) {
   dem::StepContext c;
   c.dt = run.stage.dt;
+  if (!stage.gravity) c.gravity.setZero();
   c.local_damping = run.scene.contact.damping_kind == "local" ? stage.damping : 0;
   c.period = run.layout.period;
   // Handing out work costs microseconds: a thread for every hundred grains at most. The answer does
