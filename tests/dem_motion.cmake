@@ -31,6 +31,7 @@ target_link_libraries(bed_benchmark PRIVATE settled_bed)
 trackbed_test(bed_threads hard settled_bed)
 motion_test(bed_quiet slow)
 
-add_executable(shapes_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/shapes_benchmark.cc)
+add_executable(shapes_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/shapes_benchmark.cc
+               ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/bed_file.cc)
 target_link_libraries(shapes_benchmark PRIVATE trackbed_dem)
 target_include_directories(shapes_benchmark PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)

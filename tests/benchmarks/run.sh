@@ -12,6 +12,8 @@ printf '\n# Contact kernel\n' && "$build/tests/contact_benchmark"
 printf '\n# Making and sizing grains\n' && "$build/tests/grains_benchmark"
 printf '\n# Grains in motion\n' && "$build/tests/motion_benchmark" 1000 300 "$build/tests"
 printf '\n# Grains of other shapes\n' && "$build/tests/shapes_benchmark"
+printf '\n# Other codes on the same boxes (YADE and LIGGGHTS where their Debian packages are installed)\n'
+/usr/bin/python3 "$root/tests/benchmarks/peers.py" "$build/tests/shapes_benchmark"
 printf '\n# Growth from 1000 to 100 000 grains\n' && "$build/tests/bed_benchmark" growth "$build/tests"
 printf '\n# Cost of each effect\n' && "$build/tests/bed_benchmark" effects "$build/tests"
 printf '\n# A structure'\''s step\n' && "$build/tests/fem_step_benchmark"

@@ -1,12 +1,15 @@
 // Cost of one step of a bed by shape of its grains, everything included: spheres, clumps of 8,
 // dilated polyhedra, and half of them polyhedra. Loose grains fall into a box and settle; then per
 // touching pair of parts, per near pair, per grain and step, on one thread and on two.
-//   shapes_benchmark [grains (1000)] [steps timed (1000)]
+//   shapes_benchmark [grains (1000)] [steps timed (1000)] [folder]
+// In the folder it leaves each bed (bed_file.h) and shapes.csv, for peers.py.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <random>
 
+#include "bed_file.h"
 #include "dem/grain/voronoi.h"
 #include "motion_scene.h"
 
@@ -14,7 +17,7 @@ using namespace trackbed::dem;
 
 namespace {
 
-constexpr double kSize = .045;
+constexpr double kSize = .045, kDensity = 2600;
 
 // Processor time on one thread, so that a busy machine does not count; wall time on more.
 double now(int threads) {
@@ -48,6 +51,17 @@ GrainShape rounded(const GrainShape& s) {
   return as_grain(make_dilated_shape(body));
 }
 
+// The container of so many grains, which start in it `row` by `row` in layers and do not touch.
+int row_of(int grains) { return std::max(3, static_cast<int>(std::cbrt(grains))); }
+double cell_of(const std::vector<GrainShape>& shapes) {
+  double radius = 0;
+  for (const GrainShape& s : shapes) radius = std::max(radius, s.radius);
+  return 2.04 * radius;
+}
+Vec3 box_of(const std::vector<GrainShape>& shapes, int grains) {
+  return cell_of(shapes) * row_of(grains) * Vec3(1, 1, 2);
+}
+
 Scene settled(const std::vector<GrainShape>& shapes, int grains) {
   Scene s(2e7, .5);
   PairMaterial m = s.materials(0, 0);
@@ -55,23 +69,27 @@ Scene settled(const std::vector<GrainShape>& shapes, int grains) {
   s.materials.set(0, 0, m);
   std::mt19937 random(11);
   const auto u = [&] { return random() / 2147483648. - 1; };
-  const int row = std::max(3, static_cast<int>(std::cbrt(grains)));
-  const double cell = .95 * kSize;
+  const int row = row_of(grains);
+  const double cell = cell_of(shapes);
   for (int i = 0; i < grains; ++i) {
-    const Vec3 at(i % row + .5 + .02 * u(), i / row % row + .5 + .02 * u(), i / (row * row) + .5);
-    s.add(shapes[i % shapes.size()], 2600, cell * at, turn_about({u(), u(), u()}, 3 * u()));
+    const Vec3 at(i % row + .5 + .01 * u(), i / row % row + .5 + .01 * u(), i / (row * row) + .5);
+    s.add(shapes[i % shapes.size()], kDensity, cell * at, turn_about({u(), u(), u()}, 3 * u()));
   }
-  add_container(s.bodies, s.shapes, {0, 0, 0}, {row * cell, row * cell, 2 * row * cell}, .1, 0);
+  add_container(s.bodies, s.shapes, {0, 0, 0}, box_of(shapes, grains), .1, 0);
   s.context.local_damping = .3;
   s.prepare();
   s.context.dt = .3 * expected_limit(s.bodies, s.shapes, s.materials, {}).dt;
   s.run(.4);
   s.context.local_damping = .7;
-  s.run(.5);
+  double weight = 0;
+  for (int i = 0; i < s.bodies.grains; ++i) weight += 9.81 * s.bodies.mass[i];
+  for (int k = 0; k < 40 && (k < 5 || s.now().kinetic > 1e-6 * weight * kSize); ++k)
+    s.run(s.time + .1);
   return s;
 }
 
-void time_steps(Scene s, int threads, int steps) {
+// Also returns the time per touching pair and step [s].
+double time_steps(Scene s, int threads, int steps) {
   s.context.threads = threads;
   double motion = 0, search = 0, pairs = 0, sums = 0, ledger = 0;
   long touched = 0, near = 0;
@@ -98,6 +116,7 @@ void time_steps(Scene s, int threads, int steps) {
       threads, threads > 1 ? "s" : " ", 1e6 * whole / touched, 1e6 * whole / near,
       1e6 * whole / steps / s.bodies.grains, 100 * motion / whole, 100 * search / whole,
       100 * pairs / whole, 100 * sums / whole, 100 * ledger / whole);
+  return whole / touched;
 }
 
 }  // namespace
@@ -105,6 +124,12 @@ void time_steps(Scene s, int threads, int steps) {
 int main(int argc, char** argv) {
   const int grains = argc > 1 ? std::atoi(argv[1]) : 1000,
             steps = argc > 2 ? std::atoi(argv[2]) : 1000;
+  const std::string folder = argc > 3 ? argv[3] : "";
+  std::ofstream csv;
+  if (!folder.empty()) {
+    csv.open(folder + "/shapes.csv");
+    csv << "shape,grains,touching_pairs,time_step_s,threads,seconds_per_touching_pair\n";
+  }
   const std::vector<GrainShape> plain = polyhedra();
   std::vector<GrainShape> dilated, half;
   for (const GrainShape& s : plain) {
@@ -121,6 +146,12 @@ int main(int argc, char** argv) {
     const Scene s = settled(shapes, grains);
     std::printf("%s: %d grains, %d touching of %d near pairs, kinetic energy %.1e J\n", name,
                 grains, count_contacts(s.pairs), s.pairs.size(), s.now().kinetic);
-    for (const int threads : {1, 2}) time_steps(s, threads, steps);
+    if (!folder.empty())
+      write_bed(s, box_of(shapes, grains), kDensity, folder + "/" + name + ".txt");
+    for (const int threads : {1, 2}) {
+      const double seconds = time_steps(s, threads, steps);
+      csv << name << "," << grains << "," << count_contacts(s.pairs) << "," << s.context.dt << ","
+          << threads << "," << seconds << "\n";
+    }
   }
 }
