@@ -128,12 +128,19 @@ void visit(A& archive, const std::string& at, Surface& s) {
   archive(at + "work_predicted", s.work_predicted);
   archive(at + "node_travel", s.contacts.node_travel);
   archive(at + "searched_at", s.contacts.searched_at);
-  std::vector<double> e{s.start.kinetic,    s.start.strain,       s.start.gravity,
-                        s.start.work_loads, s.start.work_surface, s.start.dissipated_damping,
-                        s.start.numerical,  s.start.at_start,     s.start.dissipated_material};
+  std::vector<double> e{s.start.kinetic,
+                        s.start.strain,
+                        s.start.gravity,
+                        s.start.work_loads,
+                        s.start.work_surface,
+                        s.start.dissipated_damping,
+                        s.start.numerical,
+                        s.start.at_start,
+                        s.start.dissipated_material,
+                        s.start.dissipated_boundary};
   archive(at + "start", e);
-  if (e.size() != 9) throw InputError("checkpoint: '" + at + "start' has another length");
-  s.start = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8]};
+  if (e.size() != 10) throw InputError("checkpoint: '" + at + "start' has another length");
+  s.start = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9]};
   dem::for_each_array(s.contacts,
                       [&](const char* name, auto& v) { archive(at + "contacts/" + name, v); });
 }

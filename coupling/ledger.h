@@ -13,7 +13,8 @@ struct EnergyFlows {
   double friction = 0;             ///< dissipated
   double local_damping = 0;        ///< dissipated
   double contact_damping = 0;      ///< dissipated, dashpots of contacts
-  double structure_damping = 0;    ///< dissipated, Rayleigh and dashpots
+  double structure_damping = 0;    ///< dissipated, Rayleigh and the dashpots of point beds
+  double structure_boundary = 0;   ///< dissipated in dashpots of boundaries, absorbing ones too
   double structure_plastic = 0;    ///< dissipated in materials with history
   double structure_numerical = 0;  ///< taken out by the structures' time integration
   double transfer_error = 0;  ///< work of the grains on the predicted surface less the work the
@@ -31,8 +32,8 @@ struct EnergyStores {
 /// What does not add up [J]; > 0: energy was created.
 inline double closure(const EnergyStores& start, const EnergyStores& now, const EnergyFlows& f) {
   return now.total() - start.total() - f.work - f.prescribed + f.friction + f.local_damping +
-         f.contact_damping + f.structure_damping + f.structure_plastic + f.structure_numerical +
-         f.transfer_error;
+         f.contact_damping + f.structure_damping + f.structure_boundary + f.structure_plastic +
+         f.structure_numerical + f.transfer_error;
 }
 
 }  // namespace trackbed::coupling

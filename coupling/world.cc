@@ -49,6 +49,7 @@ EnergyFlows flows(const World& w) {
     const fem::StructureEnergy e = s.structure->energy();
     f.work += e.work_loads - s.start.work_loads;
     f.structure_damping += e.dissipated_damping - s.start.dissipated_damping;
+    f.structure_boundary += e.dissipated_boundary - s.start.dissipated_boundary;
     f.structure_plastic += e.dissipated_material - s.start.dissipated_material;
     f.structure_numerical += e.numerical - s.start.numerical;
     f.transfer_error += s.work_predicted - (e.work_surface - s.start.work_surface);

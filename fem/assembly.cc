@@ -17,10 +17,13 @@ std::vector<int> unknowns_of(const Unknowns& unknowns, const int* nodes, int cou
   return all;
 }
 
+bool has_dashpots(const ElasticBodyParameters& p) {
+  return std::any_of(p.beds.begin(), p.beds.end(), [](const Bed& b) { return b.has_dashpots(); });
+}
+
 bool damps(const ElasticBodyParameters& p) {
-  bool any = false;
+  bool any = has_dashpots(p);
   for (const Material& m : p.materials) any |= m.rayleigh_mass > 0 || m.rayleigh_stiffness > 0;
-  for (const Bed& b : p.beds) any |= b.has_dashpots();
   return any;
 }
 
@@ -53,7 +56,7 @@ Bed absorbing(Bed bed, const std::array<double, 3>& elastic) {
 
 void add_bed(const ElasticBodyParameters& p, const Bed& given, const Discretisation& body,
              const Unknowns& unknowns, const std::vector<std::array<double, 3>>& elastic,
-             Matrices& matrices) {
+             Matrices& matrices, std::vector<double>& dashpots) {
   const int id = find_boundary(body, p.name, "bed", given.boundary);
   for (double value : {given.normal_stiffness, given.shear_stiffness, given.normal_dashpot,
                        given.shear_dashpot, given.distance})
@@ -75,9 +78,8 @@ void add_bed(const ElasticBodyParameters& p, const Bed& given, const Discretisat
           const int place = pattern.place(ids[a], ids[b]);
           matrices.stiffness[place] +=
               w * (bed.normal_stiffness * normal + bed.shear_stiffness * shear);
-          if (!matrices.damping.empty())
-            matrices.damping[place] +=
-                w * (bed.normal_dashpot * normal + bed.shear_dashpot * shear);
+          if (!dashpots.empty())
+            dashpots[place] += w * (bed.normal_dashpot * normal + bed.shear_dashpot * shear);
         }
   }
 }
@@ -124,7 +126,14 @@ Assembled assemble(const ElasticBodyParameters& p, const Grid& grid, const Discr
       for (int b = 0; b < n; ++b) out.node_mass[body.cell_nodes[c * n + a]] += element.mass(a, b);
     ++c;
   }
-  for (const Bed& bed : p.beds) add_bed(p, bed, body, unknowns, elastic, m);
+  std::vector<double> dashpots(has_dashpots(p) ? m.pattern.column.size() : 0, 0.);
+  for (const Bed& bed : p.beds) add_bed(p, bed, body, unknowns, elastic, m, dashpots);
+  for (int row = 0; !dashpots.empty() && row < unknowns.count; ++row)
+    for (int e = m.pattern.start[row]; e < m.pattern.start[row + 1]; ++e)
+      if (dashpots[e] != 0) {
+        m.damping[e] += dashpots[e];
+        out.dashpots.push_back({row, m.pattern.column[e], dashpots[e]});
+      }
   if (lumped_mass)
     for (int i = 0; i < unknowns.count; ++i) m.lumped.push_back(m.mass[m.pattern.place(i, i)]);
   return out;

@@ -11,8 +11,15 @@ namespace trackbed::fem {
 
 struct Grid;
 
+/// An entry of the damping matrix that belongs to dashpots of a boundary.
+struct BoundaryDashpot {
+  int row, column;
+  double value;  ///< [N s/m]
+};
+
 struct Assembled {
   Matrices matrices;
+  std::vector<BoundaryDashpot> dashpots;
   std::vector<double> node_mass;  ///< ∫ρ N dV per node [kg]; their sum is the body's mass
 };
 

@@ -13,7 +13,7 @@ namespace trackbed::fem {
 namespace {
 
 struct Totals {
-  double work_loads = 0, work_surface = 0, damping = 0, at_start = 0;
+  double work_loads = 0, work_surface = 0, damping = 0, boundary = 0, at_start = 0;
 };
 
 double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -29,7 +29,7 @@ struct ElasticBody::Parts : BodyModel {
   std::vector<Vec> surface_before;        // contact forces at t
   Totals totals;
   // Work space of a step.
-  std::vector<double> force, u_before, product;
+  std::vector<double> force, u_before, v_before, product;
 
   explicit Parts(ElasticBodyParameters given)
       : BodyModel(std::move(given)),
@@ -115,7 +115,7 @@ void ElasticBody::advance(const std::vector<Vec>& forces) {
   s.add_surface(forces, s.force);
   s.u_before = s.motion.u;
   const bool damped = !s.matrices().damping.empty() && !s.is_static();
-  if (damped) multiply(s.matrices().pattern, s.matrices().damping, s.motion.v, s.product);
+  if (damped) s.v_before = s.motion.v;
   s.stepper.advance(s.motion, s.force);
 
   for (std::size_t i = 0; i < s.u_before.size(); ++i) s.u_before[i] = s.motion.u[i] - s.u_before[i];
@@ -134,9 +134,14 @@ void ElasticBody::advance(const std::vector<Vec>& forces) {
     s.load_before[l] = s.load[l];
   }
   if (damped) {
-    double before = dot(moved, s.product);
-    multiply(s.matrices().pattern, s.matrices().damping, s.motion.v, s.product);
-    s.totals.damping += (before + dot(moved, s.product)) / 2;
+    std::vector<double>& mean = s.v_before;
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (mean[i] + s.motion.v[i]) / 2;
+    multiply(s.matrices().pattern, s.matrices().damping, mean, s.product);
+    double boundary = 0;
+    for (const BoundaryDashpot& c : s.assembled.dashpots)
+      boundary += moved[c.row] * c.value * mean[c.column];
+    s.totals.boundary += boundary;
+    s.totals.damping += dot(moved, s.product) - boundary;
   }
 }
 
@@ -167,9 +172,10 @@ StructureEnergy ElasticBody::energy() const {
   e.work_loads = s.totals.work_loads;
   e.work_surface = s.totals.work_surface;
   e.dissipated_damping = s.totals.damping;
+  e.dissipated_boundary = s.totals.boundary;
   e.at_start = s.totals.at_start;
   e.numerical = e.work_loads + e.work_surface + e.at_start - e.kinetic - e.strain - e.gravity -
-                e.dissipated_damping;
+                e.dissipated_damping - e.dissipated_boundary;
   return e;
 }
 
@@ -183,14 +189,15 @@ void ElasticBody::save(std::vector<double>& state) const {
        {&s.motion.u, &s.motion.v, &s.motion.a, &s.motion.f, &s.load, &s.load_before})
     put(*field);
   for (const Vec& f : s.surface_before) state.insert(state.end(), f.begin(), f.end());
-  put({s.totals.work_loads, s.totals.work_surface, s.totals.damping, s.totals.at_start});
+  put({s.totals.work_loads, s.totals.work_surface, s.totals.damping, s.totals.boundary,
+       s.totals.at_start});
   put(s.motion.a_before);
 }
 
 void ElasticBody::load(const std::vector<double>& state) {
   Parts& s = *parts_;
   const std::size_t expected =
-      4 * s.motion.u.size() + 2 * s.load.size() + 3 * s.surface_before.size() + 4;
+      4 * s.motion.u.size() + 2 * s.load.size() + 3 * s.surface_before.size() + 5;
   const bool has_before = state.size() == expected + s.motion.a.size();  // of Zhai
   if (state.size() != expected && !(has_before && s.p.scheme == TimeScheme::zhai))
     throw InputError(text(s.p.name, ": the saved state has ", state.size(),
@@ -204,9 +211,9 @@ void ElasticBody::load(const std::vector<double>& state) {
     get(*field);
   for (Vec& f : s.surface_before)
     for (double& c : f) c = *from++;
-  s.totals = {from[0], from[1], from[2], from[3]};
+  s.totals = {from[0], from[1], from[2], from[3], from[4]};
   if (has_before)
-    s.motion.a_before.assign(from + 4, state.end());
+    s.motion.a_before.assign(from + 5, state.end());
   else
     s.motion.a_before.clear();
 }

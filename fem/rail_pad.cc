@@ -16,4 +16,12 @@ double pad_compression(const RailPad& pad, double compression, double before, do
   return (now - late) / pad.stiffness + rest * std::exp(-dt / tau);
 }
 
+double pad_work(const RailPad& pad, double compression, double then, double before, double now,
+                double dt) {
+  if (pad.stiffness == 0 || dt == 0) return 0;
+  // By parts, ∫ F dδ = [F δ] − Ḟ ∫ δ dt, and k ∫ δ dt = ∫ F dt − c Δδ.
+  const double k_sum = (before + now) / 2 * dt - pad.damping * (then - compression);
+  return now * then - before * compression - (now - before) / dt * k_sum / pad.stiffness;
+}
+
 }  // namespace trackbed::fem

@@ -16,4 +16,9 @@ struct RailPad {
 /// from `before` to `now` [N]: the exact answer, at any dt. `compression` is that at its start.
 double pad_compression(const RailPad&, double compression, double before, double now, double dt);
 
+/// Work [J] of the force on the pad in such a step, from `compression` to `then`: ∫ F dδ, exact.
+/// What the spring, ½ k δ², does not store of it the dashpot has lost.
+double pad_work(const RailPad&, double compression, double then, double before, double now,
+                double dt);
+
 }  // namespace trackbed::fem

@@ -37,7 +37,7 @@ struct SurfaceMesh {
 
 /// Energies [J] since the start. Works are sums of ½(F_n + F_{n+1})·(u_{n+1} − u_n).
 /// work_loads + work_surface + at_start = kinetic + strain + gravity + dissipated_damping +
-/// dissipated_material + numerical, where `numerical` (what the time integration took out, or put
+/// dissipated_boundary + dissipated_material + numerical, where `numerical` (what the time integration took out, or put
 /// in) is what remains: zero to round-off for Newmark's average acceleration.
 struct StructureEnergy {
   double kinetic = 0, strain = 0, gravity = 0;
@@ -46,6 +46,7 @@ struct StructureEnergy {
   double numerical = 0;
   double at_start = 0;
   double dissipated_material = 0;  ///< plastic work of a material with history
+  double dissipated_boundary = 0;  ///< in dashpots of boundaries: what waves carry away
 };
 
 class Structure {

@@ -28,7 +28,7 @@ namespace trackbed::fem {
 struct Matrices {
   Pattern pattern;
   std::vector<double> stiffness, mass;
-  std::vector<double> damping = {};  ///< empty: none
+  std::vector<double> damping = {};  ///< empty: none; dashpots of the boundary are part of it
   std::vector<double> lumped = {};   ///< the diagonal, if the mass is diagonal; else empty
   std::vector<std::vector<double>> rigid = {};  ///< the six rigid motions as values of the unknowns
 };

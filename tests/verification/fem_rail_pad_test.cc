@@ -68,5 +68,27 @@ TEST(RailPad, LoadPutOnAtOnce) {
   EXPECT_EQ(pad_compression({}, 0, 1, 2, 1e-3), 0);
 }
 
+// A cycle of F sin ωt loses π F² sin φ / |k + iωc| in the dashpot, tan φ = ωc/k; without one,
+// nothing.
+TEST(RailPad, LossOfACycle) {
+  const double omega = 2 * M_PI * 10, force = 5e4, k = 1e8;
+  for (const double c : {0., 1e6}) {
+    const RailPad pad{k, c};
+    const int steps = 2000;
+    double delta = 0, lost = 0;
+    for (int n = 0; n < 21 * steps; ++n) {
+      const double dt = 2 * M_PI / omega / steps, before = force * std::sin(omega * n * dt),
+                   now = force * std::sin(omega * (n + 1) * dt);
+      const double then = pad_compression(pad, delta, before, now, dt);
+      if (n >= 20 * steps)
+        lost += pad_work(pad, delta, then, before, now, dt) - k * (then * then - delta * delta) / 2;
+      delta = then;
+    }
+    const std::complex<double> stiffness(k, omega * c);
+    const double exact = M_PI * force * force * std::sin(std::arg(stiffness)) / std::abs(stiffness);
+    EXPECT_NEAR(lost, exact, 1e-5 * M_PI * force * force / std::abs(stiffness)) << c;
+  }
+}
+
 }  // namespace
 }  // namespace trackbed::fem

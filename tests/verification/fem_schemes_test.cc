@@ -241,6 +241,8 @@ TEST(AbsorbingBoundary, LetsWavesOut) {
     }
     const auto e = b.energy();
     EXPECT_NEAR((e.kinetic + e.strain) / in, std::pow((1 - r) / (1 + r), 2), 3e-3) << r;
+    EXPECT_NEAR(e.dissipated_boundary / in, 1 - std::pow((1 - r) / (1 + r), 2), 3e-3) << r;
+    EXPECT_NEAR(e.dissipated_damping, 0, 1e-12 * in);
   }
 }
 

@@ -236,8 +236,19 @@ void apply_load(Run& run, double newton) {
 void compress_pads(Run& run, double before, double dt) {
   const SleeperScene& s = run.scene.sleeper;
   const double seats = static_cast<double>(s.seats.size());  // also of a half sleeper: whole loads
-  run.stage.pad =
-      fem::pad_compression(s.rail_pad, run.stage.pad, before / seats, run.stage.load / seats, dt);
+  const double now = run.stage.load / seats, start = run.stage.pad;
+  before /= seats;
+  run.stage.pad = fem::pad_compression(s.rail_pad, start, before, now, dt);
+  const double pads = seats * run.layout.share, stored = pads_energy(run);
+  const double work = pads * fem::pad_work(s.rail_pad, start, run.stage.pad, before, now, dt);
+  run.stage.pad_work += work;
+  run.stage.pad_loss += work - (stored - pads * s.rail_pad.stiffness * start * start / 2);
+}
+
+double pads_energy(const Run& run) {
+  const SleeperScene& s = run.scene.sleeper;
+  return static_cast<double>(s.seats.size()) * run.layout.share * s.rail_pad.stiffness *
+         run.stage.pad * run.stage.pad / 2;
 }
 
 double push_displacement(const Run& run) {

@@ -51,6 +51,9 @@ void apply_load(Run&, double newton);
 /// The rail pads' answer to a load that goes evenly from `before` to the present one in dt [s].
 void compress_pads(Run&, double before, double dt);
 
+/// Stored in the springs of all rail pads [J].
+double pads_energy(const Run&);
+
 /// The actuator of a push stands at `target` from its start [m]: the force of its spring and
 /// dashpot (half of critical) on the sleeper from now on.
 void apply_push(Run&, double target);

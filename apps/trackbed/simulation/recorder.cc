@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/trackbed/files.h"
+#include "apps/trackbed/simulation/actors.h"
 #include "dem/motion/energy.h"
 
 namespace trackbed::apps {
@@ -27,7 +28,9 @@ const std::vector<std::string> kEnergy{"time_s",
                                        "dissipated_structure_integration_J",
                                        "transfer_error_J",
                                        "closure_J",
-                                       "dissipated_structure_plastic_J"};
+                                       "dissipated_structure_plastic_J",
+                                       "dissipated_boundary_J",
+                                       "dissipated_rail_pads_J"};
 const std::vector<std::string> kCycles{"cycle",
                                        "time_s",
                                        "load_min_N",
@@ -82,11 +85,12 @@ void Recorder::energy(Run& run, const Stage& stage) {
   const coupling::EnergyStores now = coupling::stores(run.world, step_context(run, stage).gravity);
   const coupling::EnergyFlows f = coupling::flows(run.world);
   const double open = coupling::closure(run.world.start, now, f);
-  energy_.row({run.world.time, now.kinetic, now.gravity, now.contact, now.structure,
-               f.work + f.prescribed, f.friction, f.local_damping, f.contact_damping,
-               f.structure_damping, f.structure_numerical, f.transfer_error, open,
-               f.structure_plastic});
   const double work = f.work + f.prescribed;
+  energy_.row({run.world.time, now.kinetic, now.gravity, now.contact,
+               now.structure + pads_energy(run), work + run.stage.pad_work, f.friction,
+               f.local_damping, f.contact_damping, f.structure_damping, f.structure_numerical,
+               f.transfer_error, open, f.structure_plastic, f.structure_boundary,
+               run.stage.pad_loss});
   run.stage.work_in += std::max(0.0, work - run.stage.last_work);
   run.stage.last_work = work;
   run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));

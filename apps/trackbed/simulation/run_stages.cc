@@ -131,7 +131,7 @@ void enter(Run& run, const Stage& stage) {
     if (run.scene.numerics.mirror_noise > 0)
       run.world.bodies.x[0] *= 1 + run.scene.numerics.mirror_noise;
     coupling::open_ledger(run.world, step_context(run, stage).gravity);
-    s.work_in = s.last_work = s.worst_closure = s.exchange_gain = 0;
+    s.work_in = s.last_work = s.worst_closure = s.exchange_gain = s.pad_work = s.pad_loss = 0;
   }
 }
 

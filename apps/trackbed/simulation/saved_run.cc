@@ -8,7 +8,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr int kFormat = 6;  // raised when the arrays change
+constexpr int kFormat = 7;  // raised when the arrays change
 
 template <class A>
 void visit(A& a, const std::string& name, bool& flag) {
@@ -37,7 +37,7 @@ void visit(A& a, StageState& s) {
   a("stage/friction", s.friction), a("stage/stop_at", s.stop_at);
   a("stage/stop_friction", s.stop_friction);
   a("stage/dt", s.dt), a("stage/start", s.start), a("stage/load", s.load), a("stage/u0", s.u0);
-  a("stage/pad", s.pad);
+  a("stage/pad", s.pad), a("stage/pad_work", s.pad_work), a("stage/pad_loss", s.pad_loss);
   a("stage/u_min", s.u_min), a("stage/load_min", s.load_min);
   a("stage/u_max", s.u_max), a("stage/load_max", s.load_max);
   a("stage/push_start", s.push_start), a("stage/push", s.push);

@@ -47,6 +47,7 @@ struct StageState {
   double stop_friction = 0;  ///< by this friction
   double load = 0;           ///< on plate or sleeper now [N]
   double pad = 0;            ///< compression of the rail pads now [m]
+  double pad_work = 0, pad_loss = 0;  ///< of all pads since the ledger was opened [J]
   double u0 = 0;             ///< sleeper displacement that counts as zero [m]
   double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
   double push_start = 0, push = 0;  ///< sleeper along the push: at its start, and since then [m]
