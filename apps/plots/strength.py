@@ -109,7 +109,7 @@ def profile(run):
     axes.set_xlabel("distance from the back wall (mm)")
     axes.set_ylabel("height (mm)")
     axes.legend()
-    return figure, "Surface of the heap by slices one grain wide. " + text
+    return figure, "Surface of the heap by slices half a grain wide. " + text
 
 
 FIGURES = {"direct_shear": [("direct_shear", "Shear curves", shear), ("mohr", "Mohr's plane", mohr_plane)],

@@ -5,8 +5,8 @@
 namespace trackbed::dem {
 namespace {
 
-constexpr double kShare = 0.2;  // of the error that one step takes away
-constexpr double kSteps = 500;  // in which the drift takes over
+constexpr double kShare = 0.5;  // of the error that one step takes away
+constexpr double kSteps = 200;  // in which the drift takes over
 
 }  // namespace
 

@@ -580,6 +580,8 @@ class GrainTests(SceneTest):
                 sine = (r["sigma1_Pa"] - r["sigma3_Pa"]) / (r["sigma1_Pa"] + r["sigma3_Pa"])
                 self.assertAlmostEqual(r["mobilised_angle_deg"], math.degrees(math.asin(sine)), delta=1e-6)
             self.assertLess(strength["peak", f"{stress:g}"]["held_within"], 2e-3)
+            # It does not yield: the highest five rows of twenty are the last.
+            self.assertAlmostEqual(strength["peak", f"{stress:g}"]["position"], 0.005 * 17.5 / 20, delta=2e-5)
 
     # Some dozen soft stones, consolidated and compressed by a little: not a test of strength.
     STONES = {**RIGID, "Packing/Unbalanced force": "0.1", "Contact/Contact modulus": "2e7",

@@ -33,9 +33,9 @@ TEST(FitLine, NeedsTwoPointsApart) {
 }
 
 TEST(FitLine, StudentsTable) {
-  EXPECT_NEAR(confidence_factor(3), 12.706, 1e-3);
-  EXPECT_NEAR(confidence_factor(12), 2.228, 1e-3);
-  EXPECT_TRUE(std::isnan(confidence_factor(2)));
+  EXPECT_NEAR(confidence_factor(1), 12.706, 1e-3);
+  EXPECT_NEAR(confidence_factor(10), 2.228, 1e-3);
+  EXPECT_TRUE(std::isnan(confidence_factor(0)));
 }
 
 TEST(MohrCoulombFit, IsExactOnExactPoints) {
@@ -73,42 +73,59 @@ TEST(Peak, IsTheHighestMean) {
   EXPECT_DOUBLE_EQ(mean.error, 0.5);
 }
 
-// A block of height 1 from x = 0 to 1, then a wedge of this angle, as two grains.
-std::vector<dem::PlacedGrain> heap(double angle) {
-  const double length = 1 / std::tan(angle);
-  const auto grain = [](std::vector<dem::Vec3> corners) {
-    auto outline = std::make_shared<dem::GrainOutline>();
-    outline->bodies.push_back(dem::convex_hull(corners));
-    dem::PlacedGrain g;
-    g.outline = outline;
-    g.radius = 10;
-    return g;
-  };
-  std::vector<dem::Vec3> block, wedge;
-  for (const double y : {-1., 1.}) {
+// Of the grain with these corners.
+dem::PlacedGrain grain(const std::vector<dem::Vec3>& corners) {
+  auto outline = std::make_shared<dem::GrainOutline>();
+  outline->bodies.push_back(dem::convex_hull(corners));
+  dem::PlacedGrain g;
+  g.outline = outline;
+  g.radius = 10;
+  return g;
+}
+
+// A block of height 1 from x = 0 to 1, then two wedges beside each other, of these angles.
+std::vector<dem::PlacedGrain> heap(double front, double back) {
+  std::vector<dem::Vec3> block, wedges[2];
+  for (const double y : {-1., 1.})
     for (const double x : {0., 1.})
       for (const double z : {0., 1.}) block.emplace_back(x, y, z);
-    wedge.emplace_back(1, y, 0), wedge.emplace_back(1, y, 1), wedge.emplace_back(1 + length, y, 0);
-  }
-  return {grain(block), grain(wedge)};
+  for (const int k : {0, 1})
+    for (const double y : {k - 1., k + 0.}) {
+      const double end = 1 + 1 / std::tan(k == 0 ? front : back);
+      wedges[k].emplace_back(1, y, 0), wedges[k].emplace_back(1, y, 1);
+      wedges[k].emplace_back(end, y, 0);
+    }
+  return {grain(block), grain(wedges[0]), grain(wedges[1])};
 }
 
 TEST(HeapProfile, OfAWedgeHasItsAngle) {
   for (const double degrees : {15., 30., 45.}) {
-    auto profile = heap_profile(heap(degrees * kDegree), dem::Vec3::Zero(), {{1, -0.3}, {1, 0.2}},
-                                0, 6, 0, 48);
+    auto profile = heap_profile(heap(degrees * kDegree, degrees * kDegree), dem::Vec3::Zero(),
+                                {{1, -0.3}, {1, 0.2}}, 0, 6, 0, 48);
     const Estimate angle = slope_angle(profile);
     EXPECT_NEAR(angle.value, degrees * kDegree, 1e-12);
     EXPECT_LT(angle.error, 1e-8);
     EXPECT_FALSE(profile.front().fitted);
     EXPECT_DOUBLE_EQ(profile.front().height, 1);
     EXPECT_EQ(profile.back().height, 0);
-    EXPECT_NEAR(profile[4].deviation, 0, 1e-12);
+    EXPECT_NEAR(profile[20].cuts[0], profile[20].cuts[1], 1e-12);
   }
 }
 
+TEST(HeapProfile, ErrorIsThatOfTheMeanOfTheCuts) {
+  // Cuts of 30 and 38 degrees: deviation 8/sqrt(2), of their mean 8/2.
+  auto profile = heap_profile(heap(30 * kDegree, 38 * kDegree), dem::Vec3::Zero(),
+                              {{1, -0.5}, {1, 0.5}}, 0, 6, 0, 48);
+  const Estimate angle = slope_angle(profile);
+  EXPECT_NEAR(angle.error, 4 * kDegree, 1e-12);
+  // The mean height falls with the mean of both slopes.
+  const double mean = (std::tan(30 * kDegree) + std::tan(38 * kDegree)) / 2;
+  EXPECT_NEAR(angle.value, std::atan(mean), 1e-12);
+}
+
 TEST(HeapProfile, WithoutASlopeHasNoAngle) {
-  auto flat = heap_profile(heap(80 * kDegree), dem::Vec3::Zero(), {{1, 0.1}}, 0, 1.1, 0, 4);
+  auto flat =
+      heap_profile(heap(80 * kDegree, 80 * kDegree), dem::Vec3::Zero(), {{1, 0.1}}, 0, 1.1, 0, 4);
   EXPECT_TRUE(std::isnan(slope_angle(flat).value));
 }
 

@@ -543,6 +543,32 @@ class Report(Folder):
         for resource in ("http://", "https://", "src=\"/", "<script", "<link"):
             self.assertNotIn(resource, text)
 
+    def test_a_test_of_grains(self):
+        """Its strengths and curves take the place of what load cycles leave."""
+        strength = ("test,state,stress_Pa,ratio,friction_angle_deg,angle_error_deg,angle_ci95_deg,cohesion_Pa,"
+                    "cohesion_error_Pa,cohesion_ci95_Pa,inertial_number,held_within,position\n")
+        rows = {"direct_shear": "peak,25e3,0.8,38.66,,,,,,2e-3,0.01,0.02\ndirect_shear,peak fit,,,38.26,1,12.7,300,2,25,2e-3,,\n",
+                "triaxial": "peak,5e4,0.5,30,,,,,,5e-4,0.01,0.1\n", "angle_of_repose": "repose,,0.7,35,1.5,3.5,,,,,,\n"}
+        curves = {"direct_shear": "stress_Pa,displacement_m,stress_ratio,dilation_m\n25e3,0.01,0.5,0\n25e3,0.02,0.8,1e-3\n",
+                  "triaxial": "stress_Pa,axial_strain,deviator_Pa,volumetric_strain\n5e4,0.05,8e4,0.01\n5e4,0.1,1e5,0\n",
+                  "angle_of_repose": "distance_m,height_m,height_deviation_m,fitted\n" +
+                                     "".join(f"{x},{0.4 - 0.7 * x},0.01,1\n" for x in (0.1, 0.2, 0.3, 0.4))}
+        says = {"direct_shear": ("38.3°", "NOT quasi-static"), "triaxial": ("Mohr&#x27;s plane", "quasi-static (below"),
+                "angle_of_repose": ("35°", "Surface of the heap")}
+        for name, row in rows.items():
+            folder = self.copy("cycles.csv", "pressure.csv", "moment.csv")
+            with open(os.path.join(folder, "scene.resolved.prm"), "w") as file:
+                file.write(f"subsection Test\n  set Type = {name}\nend\n")
+            with open(os.path.join(folder, "strength.csv"), "w") as file:
+                file.write(strength + f"{name},{row}")
+            with open(os.path.join(folder, "repose.csv" if name == "angle_of_repose" else f"{name}.csv"), "w") as file:
+                file.write(curves[name])
+            text = self.page(folder)
+            self.assertNotIn("is not shown", text, name)
+            self.assertNotIn("Settlement per cycle", text)
+            for words in says[name]:
+                self.assertTrue(words in text, words)
+
     def test_every_file_may_be_missing(self):
         names = [name for name in os.listdir(self.whole) if name.endswith((".csv", ".h5", ".prm"))]
         for name in names:

@@ -27,10 +27,10 @@ double error_after(int steps, double softer, double away, double& overshoot) {
 }
 
 TEST(Servo, OnASpringIsGeometric) {
-  // Without drift the error falls by a fifth a step; the drift adds a slow tail of about 1/(a n).
+  // Without drift the error is halved each step; the drift adds a slow tail of about 1/(a n).
   double overshoot = 0;
-  EXPECT_NEAR(error_after(1, 1, 0, overshoot), -0.8 + 0.2 / 500, 1e-12);
-  EXPECT_NEAR(error_after(2, 1, 0, overshoot), -0.64, 2e-3);
+  EXPECT_NEAR(error_after(1, 1, 0, overshoot), -0.5 + 0.5 / 200, 1e-12);
+  EXPECT_NEAR(error_after(2, 1, 0, overshoot), -0.25, 5e-3);
   EXPECT_LT(std::abs(error_after(20000, 1, 0, overshoot)), 1e-9);
   EXPECT_LT(overshoot, 0.02);
 }

@@ -25,7 +25,8 @@ std::vector<ProfileSlice> heap_profile(const std::vector<dem::PlacedGrain>& grai
                                        const std::vector<dem::CuttingPlane>& planes, double low,
                                        double high, double floor, int slices, int points) {
   const double width = (high - low) / slices;
-  std::vector<std::vector<double>> heights(slices);  // of each cut
+  std::vector<ProfileSlice> profile(slices);
+  for (int k = 0; k < slices; ++k) profile[k].distance = low + (k + 0.5) * width;
   for (const dem::CuttingPlane& plane : planes) {
     const auto pieces = dem::section(grains, period, plane);
     for (int k = 0; k < slices; ++k) {
@@ -36,16 +37,11 @@ std::vector<ProfileSlice> heap_profile(const std::vector<dem::PlacedGrain>& grai
         for (const dem::SectionPiece& piece : pieces) top = upper_side(piece.outline, x, top);
         sum += (top - floor) / points;
       }
-      heights[k].push_back(sum);
+      profile[k].cuts.push_back(sum);
     }
   }
-  std::vector<ProfileSlice> profile(slices);
-  for (int k = 0; k < slices; ++k) {
-    const int cuts = static_cast<int>(planes.size());
-    const Estimate mean = mean_of(heights[k], 0, cuts);
-    profile[k] = {low + (k + 0.5) * width, mean.value, cuts > 1 ? mean.error * std::sqrt(cuts) : 0,
-                  false};
-  }
+  for (ProfileSlice& s : profile)
+    s.height = mean_of(s.cuts, 0, static_cast<int>(s.cuts.size())).value;
   return profile;
 }
 
@@ -59,9 +55,15 @@ Estimate slope_angle(std::vector<ProfileSlice>& profile) {
   for (std::size_t k = first; k < profile.size() && profile[k].height >= 0.2 * highest; ++k)
     x.push_back(profile[k].distance), h.push_back(profile[k].height);
   if (x.size() < 3) return {};
+  std::vector<double> angles;  // of each cut
+  for (std::size_t cut = 0; cut < profile[first].cuts.size(); ++cut) {
+    std::vector<double> own;
+    for (std::size_t k = first; k < first + x.size(); ++k) own.push_back(profile[k].cuts[cut]);
+    angles.push_back(-std::atan(fit_line(x, own).slope));
+  }
   for (std::size_t k = first; k < first + x.size(); ++k) profile[k].fitted = true;
-  const Line line = fit_line(x, h);
-  return {std::atan(-line.slope), line.slope_error / (1 + line.slope * line.slope)};
+  return {-std::atan(fit_line(x, h).slope),
+          mean_of(angles, 0, static_cast<int>(angles.size())).error};
 }
 
 }  // namespace trackbed::apps

@@ -20,13 +20,15 @@ struct Strength {
   double stress = kUnknown;  // normal or confining
   double ratio = kUnknown;   // shear over normal, or (s1-s3)/(s1+s3)
   Estimate angle, cohesion;
-  int points = 0;
-  double held = kUnknown;  // largest deviation of a held stress, share
+  int freedom = 0;             // degrees, of the errors
+  double held = kUnknown;      // largest deviation of a held stress, share
+  double position = kUnknown;  // mean shear displacement [m] or axial strain of its rows
+  bool at_end = false;         // a peak that the curve's last rows make: it may rise further
 };
 
 Strength of_fit(const char* state, const MohrCoulomb& m) {
   Strength s;
-  s.state = state, s.angle = m.angle, s.cohesion = m.cohesion, s.points = m.points;
+  s.state = state, s.angle = m.angle, s.cohesion = m.cohesion, s.freedom = m.points - 2;
   return s;
 }
 
@@ -58,15 +60,15 @@ CsvCell known(double value) { return std::isfinite(value) ? CsvCell(value) : Csv
 void write_strength(const Run& run, const std::vector<Strength>& rows, const std::string& file) {
   CsvWriter csv(file, {"test", "state", "stress_Pa", "ratio", "friction_angle_deg",
                        "angle_error_deg", "angle_ci95_deg", "cohesion_Pa", "cohesion_error_Pa",
-                       "cohesion_ci95_Pa", "inertial_number", "held_within"});
+                       "cohesion_ci95_Pa", "inertial_number", "held_within", "position"});
   const double inertial = inertial_number(run.scene, run.test.size);
   for (const Strength& s : rows) {
-    const double factor = confidence_factor(s.points);
+    const double factor = confidence_factor(s.freedom);
     csv.row({run.scene.test.type, s.state, known(s.stress), known(s.ratio),
              known(s.angle.value / kDegree), known(s.angle.error / kDegree),
              known(factor * s.angle.error / kDegree), known(s.cohesion.value),
              known(s.cohesion.error), known(factor * s.cohesion.error),
-             inertial > 0 ? CsvCell(inertial) : CsvCell(), known(s.held)});
+             inertial > 0 ? CsvCell(inertial) : CsvCell(), known(s.held), known(s.position)});
   }
   csv.flush();
 }
@@ -103,6 +105,8 @@ double mean(const std::vector<double>& v, const Part& p) {
   return mean_of(v, p.first, p.count).value;
 }
 
+bool ends(const Part& p, int rows) { return p.state == "peak" && p.first + p.count > 0.95 * rows; }
+
 double furthest(const std::vector<double>& v, double target) {
   double most = 0;
   for (const double x : v) most = std::max(most, std::abs(x / target - 1));
@@ -135,6 +139,7 @@ std::vector<Strength> direct_shear(const Run& run, const std::string& folder) {
       Strength s;
       s.state = p.state, s.stress = c.target, s.ratio = t / n;
       s.angle.value = std::atan(t / n);
+      s.position = mean(c.column[kTravel], p), s.at_end = ends(p, c.rows());
       s.held = furthest(c.column[kNormal], c.target * area);
       found.push_back(s);
     }
@@ -175,6 +180,7 @@ std::vector<Strength> triaxial(const Run& run, const std::string& folder) {
       Strength s;
       s.state = p.state, s.stress = c.target, s.ratio = (s1 - s3) / (s1 + s3);
       s.angle.value = principal_angle(s1, s3);
+      s.position = mean(c.column[kStrain], p), s.at_end = ends(p, c.rows());
       s.held = std::max(furthest(c.column[kSideX], c.target), furthest(c.column[kSideY], c.target));
       found.push_back(s);
     }
@@ -191,20 +197,20 @@ std::vector<Strength> triaxial(const Run& run, const std::string& folder) {
 std::vector<Strength> repose(const Run& run, const std::string& folder) {
   const GrainTestState& t = run.test;
   if (t.placed.empty()) return {};  // not begun
-  const double end = t.high.x() + run.scene.test.floor_length;
+  const double end = t.high.x() + run.scene.test.floor_length, across = t.high.y() - t.low.y();
+  const int given = run.scene.test.planes;
+  const int cuts = given > 0 ? given : std::max(1, static_cast<int>(across / t.size));
   std::vector<dem::CuttingPlane> planes;
-  for (int k = 0; k < run.scene.test.planes; ++k)
-    planes.push_back({1, t.low.y() + (t.high.y() - t.low.y()) * (k + 0.5) / run.scene.test.planes});
-  const int slices = std::max(5, static_cast<int>((end - t.low.x()) / t.size));
+  for (int k = 0; k < cuts; ++k) planes.push_back({1, t.low.y() + across * (k + 0.5) / cuts});
+  const int slices = std::max(5, static_cast<int>((end - t.low.x()) / (0.5 * t.size)));
   auto profile = heap_profile(dem::placed_grains(run.world.bodies, run.world.shapes),
                               run.layout.period, planes, t.low.x(), end, t.low.z(), slices);
   Strength s;
-  s.state = "repose";
-  s.angle = slope_angle(profile);
+  s.state = "repose", s.angle = slope_angle(profile), s.freedom = cuts - 1;
   CsvWriter csv(folder + "/repose.csv", {"distance_m", "height_m", "height_deviation_m", "fitted"});
   for (const ProfileSlice& p : profile) {
-    csv.row({p.distance - t.low.x(), p.height, p.deviation, p.fitted ? 1 : 0});
-    s.points += p.fitted;
+    const double error = mean_of(p.cuts, 0, cuts).error;
+    csv.row({p.distance - t.low.x(), p.height, known(error * std::sqrt(cuts)), p.fitted ? 1 : 0});
   }
   csv.flush();
   if (std::isfinite(s.angle.value)) s.ratio = std::tan(s.angle.value);
@@ -230,6 +236,11 @@ std::vector<std::string> write_grain_test(const Run& run, const std::string& fol
   for (const Strength& s : found) {
     lines.push_back(test.type + ": " + line_of(s));
     if (s.held > held) held = s.held;
+    if (s.at_end)
+      lines.push_back(stress_name("the curve at", s.stress) +
+                      " is highest at its end: no peak was passed, so what is called residual is "
+                      "none; a longer Test/" +
+                      (test.type == "triaxial" ? "Largest strain" : "Travel") + " is needed");
     if (s.state == "repose" && !std::isfinite(s.angle.value))
       lines.push_back(
           "no slope of three slices: a longer Container/Length, more grains, or a "

@@ -30,9 +30,9 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   return line;
 }
 
-double confidence_factor(int points) {
-  if (points <= 2) return kUnknown;
-  return boost::math::quantile(boost::math::students_t(points - 2), 0.975);
+double confidence_factor(int freedom) {
+  if (freedom < 1) return kUnknown;
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975);
 }
 
 MohrCoulomb fit_shear(const std::vector<double>& normal, const std::vector<double>& shear) {

@@ -18,9 +18,9 @@ struct Line {
 /// Throws InputError for fewer than two different x.
 Line fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Half width of the 95 % confidence interval of a fit's parameter over its standard error:
-/// Student's t with n - 2 degrees of freedom; unknown for n <= 2.
-double confidence_factor(int points);
+/// Half width of the 95 % confidence interval of an estimate over its standard error: Student's t
+/// with these degrees of freedom (n - 2 of a line, n - 1 of a mean); unknown for none.
+double confidence_factor(int freedom);
 
 /// A value and its standard error; unknown where there is none.
 struct Estimate {
