@@ -1,10 +1,12 @@
-// The least square hole a grain passes, by brute force: random orientations, the best of them
-// improved by random turns. Shares nothing with the code it judges.
+// The least square hole a body passes, by brute force: random orientations, the best of them
+// improved by random turns. Shares nothing with the code it judges. A body needs a width(body, d)
+// of its extent along d.
 #pragma once
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "dem/grain/clump.h"
 #include "dem/grain/polyhedron.h"
 #include "dem/grain/random.h"
 
@@ -17,8 +19,17 @@ inline double width(const Polyhedron& body, const Vec3& d) {
   return high - low;
 }
 
-// Shares nothing with the code under test: random frames, then random walks from the best ones.
-inline double brute_force(const Polyhedron& body, std::uint64_t seed) {
+inline double width(const std::vector<Sphere>& spheres, const Vec3& d) {
+  double low = 1e300, high = -1e300;
+  for (const Sphere& s : spheres) {
+    high = std::max(high, s.centre.dot(d) + s.radius);
+    low = std::min(low, s.centre.dot(d) - s.radius);
+  }
+  return high - low;
+}
+
+template <class Body>
+double brute_force(const Body& body, std::uint64_t seed) {
   Random random(seed);
   const auto value = [&](const Quat& q) {
     return std::max(width(body, q * Vec3::UnitX()), width(body, q * Vec3::UnitY()));

@@ -11,6 +11,7 @@
 #include "dem/grain/random.h"
 #include "dem/grain/voronoi.h"
 #include "tests/unit/grain_solids.h"
+#include "tests/verification/sieve_oracle.h"
 
 namespace trackbed::dem {
 namespace {
@@ -21,47 +22,6 @@ std::vector<Sphere> at_vertices(const Polyhedron& body, double radius) {
   std::vector<Sphere> spheres;
   for (const Vec3& v : body.vertices) spheres.push_back({v, radius});
   return spheres;
-}
-
-double width(const std::vector<Sphere>& spheres, const Vec3& u) {
-  double high = -1e300, low = 1e300;
-  for (const Sphere& s : spheres) {
-    high = std::max(high, s.centre.dot(u) + s.radius);
-    low = std::min(low, s.centre.dot(u) - s.radius);
-  }
-  return high - low;
-}
-
-double brute_force(const std::vector<Sphere>& spheres, std::uint64_t seed) {
-  Random random(seed);
-  const auto value = [&](const Quat& q) {
-    return std::max(width(spheres, q * Vec3::UnitX()), width(spheres, q * Vec3::UnitY()));
-  };
-  const auto random_turn = [&](double angle) {
-    return Quat(Eigen::AngleAxisd(angle * random.uniform(), random.direction()));
-  };
-  std::vector<std::pair<double, Quat>> frames;
-  for (int k = 0; k < 10000; ++k) {
-    const Quat q = random_turn(2 * M_PI) * random_turn(M_PI);
-    frames.emplace_back(value(q), q);
-  }
-  std::partial_sort(frames.begin(), frames.begin() + 15, frames.end(),
-                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  double best = 1e300;
-  for (int k = 0; k < 15; ++k) {
-    auto [here, q] = frames[k];
-    for (double step = 0.1; step > 1e-8;) {
-      bool moved = false;
-      for (int t = 0; t < 100 && !moved; ++t) {
-        const Quat next = (random_turn(step) * q).normalized();
-        const double there = value(next);
-        if (there < here) here = there, q = next, moved = true;
-      }
-      if (!moved) step *= 0.8;
-    }
-    best = std::min(best, here);
-  }
-  return best;
 }
 
 TEST(DiscHull, ArcsAreTheFarthestDiscs) {
