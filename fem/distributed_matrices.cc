@@ -99,29 +99,38 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
   std::vector<int> rows(3 * n);
   std::vector<double> K(9 * n * n), M(9 * n * n);
   std::size_t c = 0;
+  std::vector<int> columns(3 * n);
   for (const auto& cell : grid.nodes.active_cell_iterators()) {
-    if (owner_of_cell[c] != rank()) {
+    // Each rank sums the whole of its own rows, over its neighbours' cells too, in the cells'
+    // order: parts that came by messages would be added in the order of their arrival.
+    bool any = false;
+    for (int a = 0; a < n; ++a)
+      for (int d = 0; d < 3; ++d) {
+        const int id = unknowns.of_node[body.cell_nodes[c * n + a]][d];
+        const int at = id < 0 ? -1 : row[id];  // PETSc leaves negative rows and columns out
+        const bool own = at >= first_row && at < first_row + own_rows;
+        columns[3 * a + d] = at;
+        rows[3 * a + d] = own ? at : -1;
+        any |= own;
+      }
+    const bool own_cell = owner_of_cell[c] == rank();
+    if (!any && !own_cell) {
       ++c;
       continue;
     }
     element.compute(cell);
-    for (int a = 0; a < n; ++a)
-      for (int d = 0; d < 3; ++d) {
-        const int id = unknowns.of_node[body.cell_nodes[c * n + a]][d];
-        rows[3 * a + d] = id < 0 ? -1 : row[id];  // PETSc leaves negative rows out
-      }
     for (int a = 0; a < 3 * n; ++a)
       for (int b = 0; b < 3 * n; ++b) {
         K[3 * n * a + b] = element.stiffness(a, b);
         M[3 * n * a + b] = a % 3 == b % 3 ? element.mass(a / 3, b / 3) : 0.;
       }
-    MatSetValues(stiffness, 3 * n, rows.data(), 3 * n, rows.data(), K.data(), ADD_VALUES);
+    MatSetValues(stiffness, 3 * n, rows.data(), 3 * n, columns.data(), K.data(), ADD_VALUES);
     if (!lumped)
-      MatSetValues(consistent, 3 * n, rows.data(), 3 * n, rows.data(), M.data(), ADD_VALUES);
+      MatSetValues(consistent, 3 * n, rows.data(), 3 * n, columns.data(), M.data(), ADD_VALUES);
     for (int a = 0; a < n; ++a) {
       double sum = 0;
       for (int b = 0; b < n; ++b) sum += element.mass(a, b);
-      node_mass[body.cell_nodes[c * n + a]] += sum;
+      if (own_cell) node_mass[body.cell_nodes[c * n + a]] += sum;
       for (int d = 0; d < 3; ++d)
         if (rows[3 * a + d] >= 0) {
           const double weight = sum * p.gravity[d];

@@ -103,10 +103,13 @@ TEST_P(Ranks, GiveTheSameAnswer) {
   expect_near(u1, u, close), expect_near(v1, v, close);
   serial.predict(u, v), shared.predict(u1, v1);
   expect_near(u1, u, close), expect_near(v1, v, close);
-  if (what == kSleeper)
+  if (what == kSleeper) {
     EXPECT_NEAR(shared.load_displacement(0)[2], serial.load_displacement(0)[2],
                 close * std::abs(serial.load_displacement(0)[2]));
-  if (what == kMultigrid) EXPECT_GT(shared.solver_iterations(), 0);
+  }
+  if (what == kMultigrid) {
+    EXPECT_GT(shared.solver_iterations(), 0);
+  }
   const StructureEnergy e = serial.energy(), f = shared.energy();
   for (const auto part :
        {&StructureEnergy::kinetic, &StructureEnergy::strain, &StructureEnergy::gravity,
@@ -132,11 +135,11 @@ TEST_P(Ranks, GoOnFromASavedState) {
   bodies[0]->load(state);
   step(*bodies[0], 5, 5);
   bodies[0]->save(b);
-  if (ranks() == 1) {
+  if (ranks() == 1 || what == kSoil) {  // bitwise
     EXPECT_EQ(a, b);
     return;
   }
-  // Sums over ranks are added in the order in which messages arrive.
+  // The solvers add over ranks in the order in which messages arrive.
   ASSERT_EQ(a.size(), b.size());
   double size = 0;
   for (const double x : a) size = std::max(size, std::abs(x));
