@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# tests/sanitize.sh [address|thread]... [-- TEST...]
-# Builds the grain engine and its tests with sanitizers and runs them; both kinds, and all tests of
-# contact, motion and surfaces, if none is named.
+# tests/sanitize.sh [address|thread]... [-- TEST[:FILTER]...]
+# Builds the grain engine and its tests with sanitizers and runs them; both kinds if none is named.
 #   address   address and undefined behaviour, g++,     build-address/
 #   thread    data races, clang++ with its own OpenMP,  build-thread/
-# A finding stops the test that made it; exit 1 if there was one.
+# Tests of its own choice, if none is named: under `address` all of grains, contact, motion, surfaces
+# and packing that take seconds; under `thread` those that run on several threads, the others cannot
+# race. FILTER is GoogleTest's. A finding stops the test that made it; exit 1 if there was one.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/setup.sh"
@@ -19,10 +20,13 @@ while [ $# -gt 0 ]; do
   shift
 done
 [ ${#kinds[@]} -gt 0 ] || kinds=(address thread)
-[ ${#tests[@]} -gt 0 ] ||
-  tests=(contact_overlap contact_feature contact_separation contact_law pairs_friction
-    pairs_resistance pairs_candidates motion_rotation motion_impact motion_impacts surface_patch
-    surface_energy bed_threads)
+named=("${tests[@]}")
+# Left out: what solves with CGAL's exact numbers, whose memory is not ours, and the longest.
+of_address=(contact_overlap contact_feature contact_separation contact_law pairs_friction
+  pairs_resistance pairs_candidates clump_contact union_contact motion_rotation sphere_impact
+  motion_damping motion_pile surface_patch surface_round packing_file packing_duplicate
+  grain_files grain_polyhedron)
+of_thread=(bed_threads 'clump_contact:*threads*')
 
 export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=0
@@ -41,12 +45,21 @@ for kind in "${kinds[@]}"; do
   fi
   build="$root/build-$kind"
   [ -f "$build/build.ninja" ] ||
-    cmake -S "$root" -B "$build" -G Ninja -DTRACKBED_FEM=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-      -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags -O1 -fno-omit-frame-pointer" >/dev/null
-  build_targets "${tests[@]/%/_test}"
-  for test in "${tests[@]}"; do
-    if "$build/tests/${test}_test" --gtest_brief=1 >"$build/$test.log" 2>&1; then
-      echo "$kind: $test clean"
+    cmake -S "$root" -B "$build" -G Ninja -DTRACKBED_FEM=OFF -DCMAKE_BUILD_TYPE=None \
+      -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags -O1 -g1 -fno-omit-frame-pointer" >/dev/null
+  tests=("${named[@]}")
+  if [ ${#tests[@]} -eq 0 ]; then
+    [ "$kind" = address ] && tests=("${of_address[@]}") || tests=("${of_thread[@]}")
+  fi
+  targets=("${tests[@]%%:*}")
+  build_targets "${targets[@]/%/_test}"
+  for entry in "${tests[@]}"; do
+    test=${entry%%:*} filter='*'
+    [ "$test" = "$entry" ] || filter=${entry#*:}
+    begun=$SECONDS
+    if "$build/tests/${test}_test" --gtest_brief=1 --gtest_filter="$filter" \
+      >"$build/$test.log" 2>&1; then
+      echo "$kind: $test clean, $((SECONDS - begun)) s"
     else
       echo "$kind: $test FAILED, see $build/$test.log" && failed=1
     fi

@@ -11,6 +11,7 @@
 #include "apps/trackbed/progress.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/simulation/grains.h"
+#include "apps/trackbed/simulation/replay.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "apps/trackbed/simulation/zones.h"
 #include "dem/grain/library_report.h"
@@ -112,6 +113,13 @@ void print_stages(const Plan& plan) {
 
 int check_command(const CheckOptions& options) {
   const Scene scene = read_scene(options.scene, options.set);
+  if (is_replay(scene)) {
+    std::printf("%s: the bodies of %s alone, %d steps of %g s; no walls, sleeper or load.\n",
+                scene.file.c_str(), scene.replay.bodies.c_str(), scene.replay.steps,
+                scene.numerics.time_step);
+    std::printf("The scene is valid; nothing was run.\n");
+    return 0;
+  }
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   const int threads = options.threads > 0 ? options.threads : cores > 0 ? cores : 1;
   const Plan plan = make_plan(scene, threads);

@@ -106,6 +106,12 @@ void check_packing(const Scene& scene, const ParameterValues& values) {
   check_zones(check);
   check_quasi_vibration(check);
   check_copies(check);
+  const ReplayScene& replay = scene.replay;
+  if (!replay.bodies.empty() && !std::filesystem::is_regular_file(replay.bodies))
+    throw InputError(values.where("Replay/Bodies") + " = " + replay.bodies +
+                     ": no such file (looked for next to the scene's file)");
+  if (!replay.bodies.empty() && scene.numerics.time_step == 0)
+    throw InputError(values.where("Replay/Bodies") + ": a replay needs Numerics/Time step");
   const std::string& start = scene.packing.start_from;
   if (!start.empty() && !std::filesystem::is_regular_file(start))
     check.refuse("Start from", "no such file (looked for next to the scene's file)");

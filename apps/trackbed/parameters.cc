@@ -353,6 +353,10 @@ void add_numerics(Section s) {
            "of Exchange = iterated: what remains to move over the deepest overlap");
   s.number("Closure", "0.01", "-", 1e-12, 1,
            "share of the work done beyond which an open energy ledger fails the run");
+  s.number(
+      "Largest speed", "0", "m/s", 0, 1e5,
+      "of a grain, at which a run stops; 0 = three times what falling from the bed's top, plate "
+      "and sleeper, and the strongest contact so far explain");
   s.number("Mirror noise", "0", "-", 0, 1e-6,
            "relative change of the start to show the noise floor; 0 = off");
 }
@@ -368,6 +372,17 @@ void add_measures(Section s) {
   s.integer("Layers", "10", 1, 1000, "of the porosity profile, porosity.csv");
   s.integer("Horizontal cuts", "2", 0, 100, "virtual slices through the region, sections.csv");
   s.integer("Vertical cuts", "1", 0, 100, "across the track, sections.csv");
+}
+
+void add_replay(Section s) {
+  s.text(
+      "Bodies", "", "-",
+      "packing (.csv) of bodies that move alone, without walls, sleeper or load: offender.prm of "
+      "a run that went wrong; empty = no replay");
+  s.numbers("Motion", "", "m/s, rad/s", -any, any,
+            "v_x, v_y, v_z and omega_x, omega_y, omega_z of each body; empty = at rest");
+  s.numbers("Held", "", "-", 0, 1e9, "numbers, from 0, of the bodies that keep this motion");
+  s.integer("Steps", "400", 1, 1e9, "of Numerics/Time step");
 }
 
 void add_output(Section s) {
@@ -412,6 +427,7 @@ std::vector<Parameter> scene_parameters() {
   add_grain_test({table, "Test"});
   add_numerics({table, "Numerics"});
   add_measures({table, "Measures"});
+  add_replay({table, "Replay"});
   add_output({table, "Output"});
   return table;
 }

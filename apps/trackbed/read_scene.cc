@@ -236,6 +236,7 @@ NumericsScene numerics(const Values& v) {
   n.scheme = v.text("Numerics/Structure scheme");
   n.solver = v.text("Numerics/Linear solver");
   n.closure = v.number("Numerics/Closure");
+  n.largest_speed = v.number("Numerics/Largest speed");
   n.mirror_noise = v.number("Numerics/Mirror noise");
   return n;
 }
@@ -249,6 +250,15 @@ MeasureScene measures(const Values& v) {
   m.horizontal_cuts = static_cast<int>(v.integer("Measures/Horizontal cuts"));
   m.vertical_cuts = static_cast<int>(v.integer("Measures/Vertical cuts"));
   return m;
+}
+
+ReplayScene replay(const Values& v) {
+  ReplayScene r{};
+  r.bodies = v.text("Replay/Bodies");
+  r.motion = v.numbers("Replay/Motion");
+  r.held = v.numbers("Replay/Held");
+  r.steps = static_cast<int>(v.integer("Replay/Steps"));
+  return r;
 }
 
 OutputScene output(const Values& v) {
@@ -265,7 +275,7 @@ OutputScene output(const Values& v) {
 /// scene.resolved.prm can be run from anywhere.
 void make_absolute(std::vector<SceneEntry>& entries) {
   namespace fs = std::filesystem;
-  const std::set<std::string> files{"Mesh", "Stones", "Table", "Start from"};
+  const std::set<std::string> files{"Mesh", "Stones", "Table", "Start from", "Bodies"};
   for (auto& entry : entries)
     if (files.count(entry.key) > 0 && !entry.value.empty() && fs::path(entry.value).is_relative()) {
       const auto folder = entry.line > 0 ? fs::path(entry.file).parent_path() : fs::path();
@@ -299,6 +309,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.test = grain_test(values);
   scene.numerics = numerics(values);
   scene.measures = measures(values);
+  scene.replay = replay(values);
   scene.output = output(values);
   decide(scene);
   check_scene(scene, values);

@@ -33,7 +33,9 @@ int run_command(const RunOptions& o) {
   } catch (const RunError& e) {
     const std::string checkpoint = folder.file("checkpoint.h5");
     if (!std::filesystem::exists(checkpoint)) throw;
-    throw RunError(std::string(e.what()) + " The state before it is in " + checkpoint + ".");
+    throw RunError(std::string(e.what()) + " The state before it is in " + checkpoint +
+                   "; to go on from there: trackbed run " + o.scene + " --output " + path +
+                   " --resume" + (o.set.empty() ? "" : " and the same --set options"));
   }
   if (ending == Ending::stopped) {
     std::fprintf(stderr, "trackbed: stopped; go on with: trackbed run %s --output %s --resume\n",

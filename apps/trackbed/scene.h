@@ -180,6 +180,7 @@ struct NumericsScene {
   std::string scheme;         ///< of the structures' time integration
   std::string solver;         ///< of their linear systems
   double closure;             ///< share of the work done beyond which the run fails
+  double largest_speed;       ///< of a grain [m/s]; 0 = by what is known of the scene
   double mirror_noise;        ///< relative size of a last-bit change of the start (noise floor)
 };
 
@@ -189,6 +190,13 @@ struct MeasureScene {
   double radius;                  ///< > 0: an upright cylinder about the region's middle [m]
   int layers;                     ///< of the porosity profile
   int horizontal_cuts, vertical_cuts;
+};
+
+/// Some bodies alone: a pair at which a run went wrong.
+struct ReplayScene {
+  std::string bodies;                ///< packing file; empty = an ordinary scene
+  std::vector<double> motion, held;  ///< six numbers a body; indices
+  int steps;
 };
 
 struct OutputScene {
@@ -218,6 +226,7 @@ struct Scene {
   GrainTestScene test;
   NumericsScene numerics;
   MeasureScene measures;
+  ReplayScene replay;
   OutputScene output;
 };
 

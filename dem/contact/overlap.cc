@@ -68,7 +68,7 @@ struct Mark {
   }
 };
 
-// Whether the vector areas of what was appended add up to nothing, within 1e-10 of their size: the
+// Whether the vector areas of what was appended add up to nothing, within 1e-8 of their size: the
 // volume is that sure.
 bool closes(const Mark& mark, const OverlapWorkspace& work) {
   Vec3 sum = Vec3::Zero();
@@ -78,7 +78,7 @@ bool closes(const Mark& mark, const OverlapWorkspace& work) {
       sum += pieces[i].area, squares += pieces[i].area.squaredNorm();
   };
   add(work.a_pieces, mark.a), add(work.b_pieces, mark.b);
-  return sum.squaredNorm() <= 1e-20 * squares;
+  return sum.squaredNorm() <= 1e-16 * squares;
 }
 
 PlacedBody placed(const ConvexView& v, const Pose& p, const ContactFrame& frame) {

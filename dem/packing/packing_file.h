@@ -2,8 +2,8 @@
 //
 //   OFF  all grains in one file, in the scene's coordinates [m]
 //   CSV  one line a grain: place, quaternion, shape, kind; shape k is a file in <stem>_shapes in
-//        its principal frame: <k>.off, a polyhedron or the core that is dilated by radius_m;
-//        <k>.csv, spheres, x,y,z,r a line
+//        its principal frame: <k>.off, a polyhedron, the core that is dilated by radius_m, or the
+//        convex solids, closed each, of a grain of several pieces; <k>.csv, spheres, x,y,z,r a line
 //   VTU  one polyhedral cell a grain, with its number, sieve size and volume (ParaView); of a clump
 //        one a sphere, with its grain's
 //
@@ -23,7 +23,7 @@ std::string packing_off_text(const PackedGrains&);
 std::string packing_vtu_text(const PackedGrains&);
 
 /// A shape's own file: how its name ends, and what it holds. Throws InputError for a union of
-/// polyhedra.
+/// dilated polyhedra.
 struct ShapeFile {
   std::string ending, text;
 };

@@ -67,6 +67,7 @@ std::string shape_path(const std::string& csv, const Row& row) {
 
 GrainShape read_shape(const std::string& path, const Row& row) {
   if (row.kind == "spheres") return as_grain(make_clump_shape(read_clump(path)));
+  if (row.kind == "pieces") return union_shape(read_solids(path));
   const Polyhedron solid = read_solid(path);
   return row.kind == "dilated" ? as_grain(make_dilated_shape({solid, row.radius}))
                                : make_grain_shape(solid);
@@ -111,8 +112,9 @@ std::vector<Row> read_rows(const std::string& path) {
       throw InputError(at + "shape is not a whole number");
     const bool told = kind_at < static_cast<std::ptrdiff_t>(header.size());
     const std::string kind = told ? cell(kind_at) : "polyhedron";
-    if (kind != "polyhedron" && kind != "spheres" && kind != "dilated")
-      throw InputError(at + "kind = '" + kind + "'; allowed are polyhedron, spheres, dilated");
+    if (kind != "polyhedron" && kind != "spheres" && kind != "dilated" && kind != "pieces")
+      throw InputError(at + "kind = '" + kind +
+                       "'; allowed are polyhedron, spheres, dilated, pieces");
     const double radius = kind == "dilated" ? number_in("radius_m", radius_at) : 0;
     if (kind == "dilated" && !(radius > 0))
       throw InputError(at + "radius_m must be positive for a dilated grain");

@@ -82,8 +82,17 @@ DistinctShapes distinct_shapes(const PackedGrains& g) {
 ShapeFile shape_file(const GrainShape& s) {
   std::ostringstream out = all_digits();
   switch (kind_of(s)) {
-    case GrainKind::pieces:
-      throw InputError("a grain of several polyhedra cannot be written to a CSV packing");
+    case GrainKind::pieces: {
+      PackedGrains pieces;  // in the grain's own frame, one solid each
+      for (const ConvexPart& part : s.parts) {
+        if (part.radius > 0)
+          throw InputError("a grain of several dilated parts cannot be written to a CSV packing");
+        GrainShape piece;
+        piece.body = part.core;
+        pieces.add(piece, Vec3::Zero(), Quat::Identity());
+      }
+      return {".off", packing_off_text(pieces)};
+    }
     case GrainKind::spheres:
       out << "x,y,z,r\n";
       for (const Sphere& b : spheres_of(s))

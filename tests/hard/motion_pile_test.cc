@@ -236,13 +236,17 @@ TEST(TimeStep, expected_limit_is_below_the_measured_one) {
   EXPECT_GT(expected, measured / 10);
 }
 
-std::string complaint(const Scene& s, const Region& region = {}) {
+std::string complaint(const Scene& s, const StateLimits& limits = {}) {
   try {
-    check_state(s.bodies, s.shapes, s.pairs, s.context, 42, region);
-  } catch (const RunError& e) {
+    check_state(s.bodies, s.shapes, s.pairs, s.context, 42, limits, "deposit, 0.1 s");
+  } catch (const StateFault& e) {
     return e.what();
   }
   return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 TEST(Monitor, names_step_grain_and_cause) {
@@ -250,16 +254,59 @@ TEST(Monitor, names_step_grain_and_cause) {
   EXPECT_EQ(complaint(s), "");
   Scene lost = s;
   lost.bodies.v[3].x() = NAN;
-  EXPECT_NE(complaint(lost).find("step 42: grain 3"), std::string::npos);
+  EXPECT_TRUE(contains(complaint(lost), "step 42 (deposit, 0.1 s): grain 3"));
   Scene out = s;
   out.bodies.x[2].z() = -3;
-  Region region;
-  region.low = {0, 0, 0};
-  EXPECT_NE(complaint(out, region).find("grain 2 has left the scene"), std::string::npos);
+  StateLimits limits;
+  limits.region.low = {0, 0, 0};
+  EXPECT_TRUE(contains(complaint(out, limits), "grain 2 has left the scene"));
   Scene deep = s;
   deep.bodies.x[1] = deep.bodies.x[0] + Vec3(.012, 0, 0);
   deep.prepare();
-  EXPECT_NE(complaint(deep).find("grain 0 and grain 1 overlap"), std::string::npos);
+  EXPECT_TRUE(contains(complaint(deep), "grain 0 and grain 1 overlap"));
+  for (const Scene* faulty : {&lost, &deep})
+    EXPECT_TRUE(contains(complaint(*faulty), "Likely cause: ") &&
+                contains(complaint(*faulty), "Remedy: "));
+}
+
+TEST(Monitor, stops_what_flies_off) {
+  Scene s = pile(8, .5);
+  s.bodies.v[5] = {0, 3, 4};
+  StateLimits limits;
+  limits.speed = {4.9, 0};
+  EXPECT_TRUE(contains(complaint(s, limits), "grain 5 flies off"));
+  // A contact may give it sqrt(2 U/m): 0.2 m/s here.
+  limits.speed.energy = .02 * s.bodies.mass[5];
+  EXPECT_EQ(complaint(s, limits), "");
+  s.bodies.v[5] *= 1.03;
+  EXPECT_TRUE(contains(complaint(s, limits), "at most 5.1 m/s"));
+  // A tenth of its size in a step, whatever the limit.
+  s.context.dt = 1;
+  EXPECT_TRUE(contains(complaint(s), "of its size in a step"));
+}
+
+// What lies wholly inside another feels no force, whatever the shape: refused before the first
+// step.
+TEST(Monitor, refuses_bodies_inside_each_other) {
+  const GrainShape cube = make_grain_shape(make_box(Vec3::Constant(.1)));
+  const GrainShape plate = make_grain_shape(make_box({.05, .05, .001}));
+  const GrainShape small = make_grain_shape(make_box(Vec3::Constant(.02)));
+  const GrainShape ball = as_grain(make_clump_shape({{Vec3::Zero(), .01}}));
+  const GrainShape clump =
+      as_grain(make_clump_shape({{Vec3::Zero(), .01}, {Vec3(.008, 0, 0), .008}}));
+  const GrainShape round = as_grain(make_dilated_shape({make_box(Vec3::Constant(.016)), .002}));
+  const GrainShape big_ball = as_grain(make_clump_shape({{Vec3::Zero(), .08}}));
+  const GrainShape big_round = as_grain(make_dilated_shape({make_box(Vec3::Constant(.09)), .01}));
+  for (const GrainShape* outer : {&cube, &big_ball, &big_round})
+    for (const GrainShape* inner : {&small, &plate, &ball, &clump, &round})
+      for (const Vec3& off : {Vec3(0, 0, 0), Vec3(.003, .001, -.002)}) {
+        Scene s(2e8, .5);
+        s.add(*outer, 2600, Vec3::Zero());
+        s.add(*inner, 2600, off, turn_about({.1, .5, .3}, .4));
+        s.context.dt = 1e-5;
+        s.prepare();
+        EXPECT_NE(complaint(s), "") << outer->volume << ' ' << inner->volume << ' ' << off.x();
+      }
 }
 
 }  // namespace

@@ -491,6 +491,32 @@ class Packings(SceneTest):
         self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 3)
 
 
+    def test_grains_of_several_pieces(self):
+        def box(low, high):
+            return [[(low, high)[bit][axis] for axis, bit in enumerate(bits)]
+                    for bits in ((0, 0, 0), (0, 0, 1), (0, 1, 0), (0, 1, 1), (1, 0, 0), (1, 0, 1), (1, 1, 0), (1, 1, 1))]
+
+        # An L of two boxes that share a face, five of them.
+        corners = box((0, 0, 0), (0.02, 0.01, 0.01)) + box((0, 0.01, 0), (0.01, 0.02, 0.01))
+        faces = [[k + n for n in f] for k in (0, 8)
+                 for f in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))]
+        lines = ["OFF", "16 12 0", *(" ".join(map(str, c)) for c in corners),
+                 *(" ".join(map(str, [4, *f])) for f in faces), ""]
+        (self.folder / "ell_shapes").mkdir()
+        (self.folder / "ell_shapes" / "0.off").write_text("\n".join(lines))
+        header = "shape,x_m,y_m,z_m,qw,qx,qy,qz,sieve_m,kind"
+        places = [(0, 0.01 * (k % 2), 0.012 + 0.025 * k, *((1, 0, 0, 0), (0.6, 0.8, 0, 0))[k % 2]) for k in range(5)]
+        (self.folder / "ell.csv").write_text("\n".join(
+            [header, *("0," + ",".join(map(str, p)) + ",0.02,pieces" for p in places), ""]))
+        run = self.pack("a", "--export", "csv", change={"Packing/Method": "deposit", "Packing/Start from": "ell.csv",
+                                                        "Packing/Settle time": "0.4", "Contact/Torsional friction": "1"})
+        grains = self.grains(run)
+        self.assertEqual([g["kind"] for g in grains], 5 * ["pieces"])
+        for g in grains:
+            self.assertAlmostEqual(float(g["volume_m3"]), 3e-6, delta=1e-15)
+            # Come down from up to 0.11 m, and neither sunk in nor held up.
+            self.assertTrue(0.004 < float(g["z_m"]) < 0.05, g)
+
     def test_export_of_round_grains(self):
         change = {"Packing/Method": "deposit", "Grains/Shape": "clump", "Grains/Other share": "0.5"}
         self.assertIn("Grains/Shape = clump", self.pack("a", "--export", "off", change=change, exit_code=2).stderr)
@@ -792,6 +818,62 @@ class Refusals(SceneTest):
     def test_time_step_over_the_limit(self):
         line = self.refused("run", "tiny.prm", "--output", "a", "--set=Numerics/Time step=1e-3")
         self.assertRegex(line, r"stability limit .* would do")
+
+
+class GoesWrong(SceneTest):
+    def stopped(self, output, *options, change):
+        """Exit 1 and one line: step, stage, time, cause and remedy."""
+        done = self.run_scene_that_fails(output, *options, change=change)
+        (line,) = [line for line in done.stderr.splitlines() if line.startswith("trackbed: ")]
+        self.assertRegex(line, r"step \d+ \(\w+, [0-9.e+-]+ s\): .*Likely cause: .*Remedy: ")
+        for file in (self.folder / output).glob("*.csv"):
+            self.assertNotIn("nan", file.read_text().lower(), file)
+        return line
+
+    def run_scene_that_fails(self, output, *options, change):
+        sets = [f"--set={path}={value}" for path, value in {"Packing/Folder": "packings", **change}.items()]
+        return self.trackbed("run", "tiny.prm", "--output", output, *options, *sets, exit_code=1)
+
+    def test_a_grain_that_flies_off(self):
+        change = {"Numerics/Largest speed": "0.3"}
+        line = self.stopped("a", change=change)
+        self.assertRegex(line, r"grain (\d+) flies off at .* with 0\.3\d* m/s \(at most 0\.3 m/s.*strongest contact is")
+        # The state before it goes on to the same end, bitwise.
+        self.assertIn("a/checkpoint.h5", line)
+        history = (self.folder / "a" / "history.csv").read_bytes()
+        self.assertEqual(self.stopped("a", "--resume", change=change), line)
+        self.assertEqual((self.folder / "a" / "history.csv").read_bytes(), history)
+        # The pair alone runs into the same, with the same law and step.
+        self.assertIn("trackbed run a/offender.prm", line)
+        self.assertIn("valid", self.trackbed("check", "a/offender.prm").stdout)
+        again = self.trackbed("run", "a/offender.prm", "--output", "b", exit_code=1).stderr
+        self.assertRegex(again, r"replay, .* grain 0 flies off at .* with 0\.3")
+        # Without the limit it ends, and the two have parted with no more energy than they had.
+        self.trackbed("run", "a/offender.prm", "--output", "c", "--set=Numerics/Largest speed=0")
+        energy = rows(self.folder / "c" / "energy.csv")
+        self.assertLess(abs(float(energy[-1]["closure_J"])), 1e-2 * float(energy[0]["kinetic_J"]))
+
+    def test_contacts_too_soft(self):
+        line = self.stopped("a", change={"Contact/Packing modulus": "1e5"})
+        self.assertRegex(line, r"grain \d+ and .* overlap by .* % of the smaller one's size \(allowed 20 %\)")
+        self.trackbed("run", "a/offender.prm", "--output", "b")
+        self.assertGreater(float(rows(self.folder / "b" / "history.csv")[-1]["contacts"]), 0)
+
+    def test_a_grain_inside_another(self):
+        def box(edge):
+            corners = [f"{x} {y} {z}" for x in (0, edge) for y in (0, edge) for z in (0, edge)]
+            faces = ["0 1 3 2", "4 6 7 5", "0 4 5 1", "2 3 7 6", "0 2 6 4", "1 5 7 3"]
+            return "\n".join(["OFF", "8 6 0", *corners, *("4 " + f for f in faces), ""])
+
+        (self.folder / "in_shapes").mkdir()
+        for k, edge in enumerate((0.03, 0.008)):
+            (self.folder / "in_shapes" / f"{k}.off").write_text(box(edge))
+        (self.folder / "in.csv").write_text("shape,x_m,y_m,z_m,qw,qx,qy,qz,sieve_m\n"
+                                            "0,0,0,0.02,1,0,0,0,0.03\n1,0.01,0.012,0.031,1,0,0,0,0.008\n")
+        done = self.run_scene_that_fails("a", change={"Packing/Start from": "in.csv"})
+        self.assertRegex(done.stderr, r"step 0 .*grain 0 and grain 1 overlap .*100 % of its volume lies inside")
+        # So it does alone.
+        self.assertIn("step 0", self.trackbed("run", "a/offender.prm", "--output", "b", exit_code=1).stderr)
 
 
 if __name__ == "__main__":

@@ -170,6 +170,41 @@ TEST(PackingFile, spheres_clumps_and_dilated_grains_come_back_from_csv) {
   }
 }
 
+TEST(PackingFile, grains_of_several_pieces_come_back_from_csv) {
+  const Folder folder;
+  const auto moved = [](Polyhedron p, const Vec3& by) {
+    for (Vec3& v : p.vertices) v += by;
+    return p;
+  };
+  // An L whose boxes share a face, and a T of three.
+  const GrainShape ell =
+      union_shape({make_box({.2, .1, .1}), moved(make_box({.1, .1, .1}), {0, .1, 0})});
+  const GrainShape tee =
+      union_shape({make_box({.1, .2, .1}), moved(make_box({.1, .1, .1}), {.1, 0, 0}),
+                   moved(make_box({.1, .1, .1}), {-.1, 0, 0})});
+  PackedGrains g;
+  Random random(6);
+  for (int i = 0; i < 6; ++i) {
+    const Quat q(random.uniform(-1, 1), random.uniform(-1, 1), .5, random.uniform(-1, 1));
+    g.add(i % 2 ? ell : tee, 3 * random.direction(), q.normalized());
+    g.shape.back().sieve_size = .15;
+  }
+  const PackedGrains back = read_packing(write_csv(folder, g));
+  ASSERT_EQ(back.size(), 6);
+  for (int i = 0; i < 6; ++i) {
+    ASSERT_EQ(back.shape[i].parts.size(), g.shape[i].parts.size());
+    EXPECT_NEAR(back.shape[i].volume, g.shape[i].volume, 1e-15);
+    EXPECT_LT((back.shape[i].inertia - g.shape[i].inertia).norm(), 1e-15);
+    for (std::size_t k = 0; k < g.shape[i].parts.size(); ++k)
+      for (const Vec3& p : core_points(g, i, static_cast<int>(k))) {
+        double nearest = 1;
+        for (const Vec3& x : core_points(back, i, static_cast<int>(k)))
+          nearest = std::min(nearest, (p - x).norm());
+        EXPECT_LT(nearest, 1e-12) << i;
+      }
+  }
+}
+
 TEST(PackingFile, outlines_of_round_grains_have_their_volume) {
   const Folder folder;
   const PackedGrains g = rounded_sample();

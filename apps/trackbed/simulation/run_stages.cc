@@ -4,17 +4,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/trackbed/signals.h"
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/materials.h"
+#include "apps/trackbed/simulation/replay.h"
 #include "apps/trackbed/simulation/subgrade_bearing.h"
+#include "apps/trackbed/simulation/watch.h"
 #include "base/error.h"
 #include "coupling/time_step.h"
-#include "dem/motion/energy.h"
-#include "dem/motion/monitor.h"
 #include "dem/packing/equilibrium.h"
 #include "dem/packing/packed_grains.h"
 
@@ -66,7 +67,7 @@ void choose_step(Run& run, const Stage& stage) {
   for (const coupling::Surface& s : run.world.surfaces)
     dt = std::min(dt, 0.99 * s.structure->largest_step() / per_exchange);
   if (n.time_step > 0) {
-    if (n.time_step > std::min(limit.dt, now.dt)) {
+    if (n.time_step > std::min(limit.dt, now.dt) && !is_replay(run.scene)) {
       char text[200];
       std::snprintf(text, sizeof text,
                     "Numerics/Time step: %.3g s is over the stability limit of stage '%s' "
@@ -135,19 +136,9 @@ void enter(Run& run, const Stage& stage) {
   }
 }
 
-// Looks at limits, overlaps and state; halves the step when contacts have grown too stiff for it.
+// Looks at limits and overlaps; halves the step when contacts have grown too stiff for it.
 void monitor(Run& run, const Stage& stage, Progress& progress) {
   coupling::World& w = run.world;
-  const Layout& l = run.layout;
-  dem::Region region;
-  const dem::Vec3 room = dem::Vec3::Constant(0.3);
-  region.low = l.low - room, region.high = l.high + room;
-  if (run.scene.test.type == "angle_of_repose") region.high.x() += run.scene.test.floor_length;
-  region.high.z() = HUGE_VAL;
-  for (int k = 0; k < 2; ++k)
-    if (l.period[k] > 0) region.low[k] = -HUGE_VAL, region.high[k] = HUGE_VAL;
-  dem::check_state(w.bodies, w.shapes, w.pairs, step_context(run, stage), w.step, region,
-                   run.scene.contact.largest_overlap);
   StageState& s = run.stage;
   s.largest_overlap =
       std::max(s.largest_overlap, dem::deepest_overlap(w.bodies, w.shapes, w.pairs).share);
@@ -172,34 +163,6 @@ void monitor(Run& run, const Stage& stage, Progress& progress) {
                   stage.name.c_str(), s.dt, limit.dt, limit.body);
     progress.note(text);
   }
-}
-
-// At the end of each load cycle, or of a stage of a test of grains, where the height that the
-// grains gave up counts as work too: no more energy from nowhere than the scene allows.
-void check_ledger(const Run& run, const Stage& stage) {
-  const StageState& s = run.stage;
-  const double allowed = run.scene.numerics.closure;
-  double put_in = s.work_in;
-  if (stage.ledger && stage.control)
-    put_in +=
-        std::max(0.0, run.world.start.gravity -
-                          dem::gravity_energy(run.world.bodies, step_context(run, stage).gravity));
-  if (!stage.ledger || !(put_in > 0)) return;
-  const bool open = s.worst_closure > allowed * put_in;
-  const double amount = open ? s.worst_closure : s.exchange_gain;
-  if (!open && !(s.exchange_gain > allowed * put_in)) return;
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "step %ld (%s, %.4g s): %s %.3g J, %.2g %% of the %.3g J put in; Numerics/Closure "
-                "allows %.2g %%. %s",
-                run.world.step, stage.name.c_str(), run.world.time,
-                open ? "the energy ledger is open by" : "the exchange with the structures made",
-                amount, 100 * amount / put_in, put_in, 100 * allowed,
-                open ? "The time step is probably too large for the contacts: halve "
-                       "Numerics/Margin or Numerics/Time step."
-                     : "Its steps are too long, or it is lagged: Numerics/Exchange = predicted or "
-                       "iterated, or fewer grain steps per exchange.");
-  throw RunError(text);
 }
 
 void keep_grain_forces(Run& run) {
@@ -303,19 +266,20 @@ bool snapshot_due(const StageState& s, int taken, double interval) {
   return interval > 0 && reached(s, static_cast<int>(interval / s.dt + 0.5), taken);
 }
 
-}  // namespace
-
-Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
-                  const std::string& folder, Recorder& recorder, SnapshotLog& snapshots,
-                  Progress& progress) {
+Ending take_stages(Run& run, const std::vector<Stage>& stages, int first_index,
+                   const std::string& folder, Recorder& recorder, SnapshotLog& snapshots,
+                   Progress& progress, Watch& watch) {
   using Clock = std::chrono::steady_clock;
   StageState& s = run.stage;
   const OutputScene& out = run.scene.output;
+  const std::string file = folder + "/checkpoint.h5";
   auto saved = Clock::now();
+  bool kept = std::filesystem::exists(file);
   const auto checkpoint = [&] {
     recorder.flush();
-    save_run(folder + "/checkpoint.h5", run, {recorder.rows(), snapshots});
+    save_run(file, run, {recorder.rows(), snapshots});
     saved = Clock::now();
+    kept = true;
   };
 
   for (int k = s.index - first_index; k < static_cast<int>(stages.size()); ++k) {
@@ -325,8 +289,11 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     if (resumed) {
       choose_laws(run, stage);
       set_step(run, s.dt);
+      watch = start_watch(run);
     } else {
       enter(run, stage);
+      watch = start_watch(run);
+      inspect(run, stage, watch);
       start_of_stage(run, stage, recorder);
     }
     progress.begin(stage.name, run.world.time, s.start + stage.longest);
@@ -343,7 +310,10 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
       s.steps += taken;
       if (stage.control) over = stage.control(run, stage);
       const bool look = reached(s, kMonitorSteps, taken);
-      if (look) monitor(run, stage, progress);
+      if (look) {
+        inspect(run, stage, watch);
+        monitor(run, stage, progress);
+      }
       if (stage.watch && reached(s, kWatchSteps, taken) && stage.watch(run))
         run.world.materials = make_materials(run.scene, stage.modulus, s.friction);
       if (sample_due(s, taken, run.scene)) {
@@ -357,16 +327,19 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
       }
       over = over || (look && at_rest(run, stage)) ||
              run.world.time - s.start > stage.longest - 0.5 * taken * s.dt;
+      const bool stop = stop_requested() && !over;
+      const std::chrono::duration<double> since = Clock::now() - saved;
+      const bool due = out.checkpoint_interval > 0 && since.count() > 60 * out.checkpoint_interval;
+      // Nothing is kept that a look would refuse.
+      if ((over || stop || due) && !look) inspect(run, stage, watch);
       if (over || snapshot_due(s, taken, out.snapshot_interval))
         write_snapshot(run, stage, folder, out.structure_fields, snapshots);
       if (progress.due()) progress.update(run.world.time, detail(run));
-      if (stop_requested() && !over) {
-        checkpoint();
+      if (stop || due || (look && !kept)) checkpoint();
+      if (stop) {
         progress.finish(run.world.time, "stopped, checkpoint written");
         return Ending::stopped;
       }
-      const std::chrono::duration<double> since = Clock::now() - saved;
-      if (out.checkpoint_interval > 0 && since.count() > 60 * out.checkpoint_interval) checkpoint();
     }
     if (stage.control) {
       recorder.sample(run, stage);
@@ -380,6 +353,41 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     checkpoint();
   }
   return Ending::done;
+}
+
+// The same message with the pair's own scene, which is written.
+[[noreturn]] void give_up(const Run& run, const Stage& stage, const Watch& watch,
+                          const dem::StateFault& fault, const std::string& folder) {
+  const std::string scene = write_offender(run, stage, watch.before, fault.a, fault.b, folder);
+  std::string text = fault.what();
+  if (!scene.empty())
+    text += " Bodies " + std::to_string(fault.a) + " and " + std::to_string(fault.b) +
+            " alone, from the last look before: trackbed run " + scene + ".";
+  throw RunError(text);
+}
+
+}  // namespace
+
+Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
+                  const std::string& folder, Recorder& recorder, SnapshotLog& snapshots,
+                  Progress& progress) {
+  Watch watch;
+  const auto stage = [&]() -> const Stage& {
+    const std::size_t k = run.stage.index - first_index;
+    return stages[std::min(k, stages.size() - 1)];
+  };
+  try {
+    try {
+      return take_stages(run, stages, first_index, folder, recorder, snapshots, progress, watch);
+    } catch (const dem::StateFault&) {
+      throw;
+    } catch (const RunError&) {
+      inspect(run, stage(), watch);  // may know which grain it was
+      throw;
+    }
+  } catch (const dem::StateFault& fault) {
+    give_up(run, stage(), watch, fault, folder);
+  }
 }
 
 }  // namespace trackbed::apps

@@ -48,7 +48,7 @@ Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& 
   RunRecords records;
   if (options.resume)
     records = load_run(folder + "/checkpoint.h5", run);
-  else if (!options.packing_only && take_packing(run, folder)) {
+  else if (!options.packing_only && packed > 0 && take_packing(run, folder)) {
     records.rows = {Recorder::kNew, Recorder::kNew, Recorder::kNew, Recorder::kKeepAll};
     progress.note("packing " + packing_name(scene) + " taken from " + scene.packing.folder);
   }

@@ -4,6 +4,7 @@
 #include "apps/trackbed/grain_tests/grain_tests.h"
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/quasi_vibration.h"
+#include "apps/trackbed/simulation/replay.h"
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/waveform.h"
@@ -29,6 +30,7 @@ Stage packing_stage(const Scene& s, const char* name) {
 
 std::vector<Stage> packing_stages(const Scene& s) {
   std::vector<Stage> stages;
+  if (is_replay(s)) return stages;
 
   const bool vibrated = s.packing.method == "quasi_vibration";
   const bool layered = s.packing.layers * s.packing.bays > 1;
@@ -107,6 +109,7 @@ std::vector<Stage> packing_stages(const Scene& s) {
 }
 
 std::vector<Stage> loading_stages(const Scene& s) {
+  if (is_replay(s)) return {replay_stage(s)};
   if (s.test.on()) return grain_test_stages(s);
   Stage seating;
   seating.name = "seating";

@@ -1,0 +1,135 @@
+#include "apps/trackbed/simulation/replay.h"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "apps/trackbed/files.h"
+#include "apps/trackbed/simulation/materials.h"
+#include "base/error.h"
+#include "coupling/edit.h"
+#include "dem/packing/packing_file.h"
+
+namespace trackbed::apps {
+namespace {
+
+constexpr int kSteps = 400;  // four times what lies between two looks at a run's state
+
+bool finite(const dem::Bodies& b, int i) {
+  return b.x[i].allFinite() && b.q[i].coeffs().allFinite() && b.v[i].allFinite() &&
+         b.omega[i].allFinite();
+}
+
+void write_bodies(const dem::PackedGrains& pair, const std::string& stem) {
+  namespace fs = std::filesystem;
+  const dem::DistinctShapes shapes = dem::distinct_shapes(pair);
+  std::error_code failed;
+  fs::create_directories(stem + "_shapes", failed);
+  if (failed) throw RunError(stem + "_shapes: cannot be made: " + failed.message());
+  for (std::size_t k = 0; k < shapes.first_of.size(); ++k) {
+    const dem::ShapeFile file = dem::shape_file(pair.shape[shapes.first_of[k]]);
+    write_aside_then_rename(stem + "_shapes/" + std::to_string(k) + file.ending, file.text);
+  }
+  write_aside_then_rename(stem + ".csv", dem::packing_csv_text(pair, shapes.shape_of));
+}
+
+std::string section(const std::string& name, const std::string& keys) {
+  return "\nsubsection " + name + "\n" + keys + "end\n";
+}
+
+void place_bodies(Run& run) {
+  const ReplayScene& r = run.scene.replay;
+  const dem::PackedGrains g = dem::read_packing(r.bodies);
+  coupling::add_grains(run.world, g.shape, g.centre, g.turn, run.scene.grains.density, kGrain);
+  dem::Bodies& b = run.world.bodies;
+  const auto refuse = [&](const char* key, const std::string& why) {
+    throw InputError(std::string("Replay/") + key + ": " + why + " (" + std::to_string(b.grains) +
+                     " bodies in " + r.bodies + ")");
+  };
+  if (!r.motion.empty() && r.motion.size() != 6 * static_cast<std::size_t>(b.grains))
+    refuse("Motion", "six numbers a body are needed, or none");
+  for (const double i : r.held) {
+    if (i != std::floor(i) || i >= b.grains) refuse("Held", "numbers of bodies from 0 are needed");
+    b.freedom[static_cast<int>(i)] = dem::kFixed;
+  }
+  for (int i = 0; i < b.grains && !r.motion.empty(); ++i) {
+    const double* m = &r.motion[6 * i];
+    b.v[i] = {m[0], m[1], m[2]};
+    dem::set_spin(b, i, {m[3], m[4], m[5]});
+  }
+}
+
+}  // namespace
+
+std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies& state, int a,
+                           int b, const std::string& folder) {
+  if (b < 0 || a == b || !finite(state, a) || !finite(state, b)) return "";
+  const coupling::World& w = run.world;
+  const auto& shape = [&](int i) { return w.shapes.shape(state.shape[i]); };
+  dem::PackedGrains pair;
+  pair.add(shape(a), state.x[a], state.q[a]);
+  pair.add(shape(b), state.x[b] + dem::nearest_image(state.x[a], state.x[b], run.layout.period),
+           state.q[b]);
+  for (dem::GrainShape& s : pair.shape)  // of a wall or plate no sieve size is known
+    if (!(s.sieve_size > 0)) s.sieve_size = std::cbrt(s.volume);
+  std::ostringstream motion, held;
+  motion.precision(17);
+  for (const int i : {a, b}) {
+    const dem::Vec3 &v = state.v[i], &o = state.omega[i];
+    motion << (i == a ? "" : ", ") << v.x() << ", " << v.y() << ", " << v.z() << ", " << o.x()
+           << ", " << o.y() << ", " << o.z();
+    if (i >= state.grains) held << (held.tellp() > 0 ? ", " : "") << (i == a ? 0 : 1);
+  }
+  const std::string stem = folder + "/offender";
+  try {
+    write_bodies(pair, stem);
+  } catch (const InputError&) {  // a union of polyhedra
+    return "";
+  }
+
+  // The contact as it was between these two materials.
+  const dem::PairMaterial& m = w.materials(state.material[a], state.material[b]);
+  std::ostringstream out;
+  out.precision(17);
+  const auto set = [](const std::string& key, const auto& value) {
+    std::ostringstream line;
+    line.precision(17);
+    line << "  set " << key << " = " << value << "\n";
+    return line.str();
+  };
+  out << "# Bodies " << a << " and " << b << " of a run that went wrong in stage '" << stage.name
+      << "' at step " << w.step << ", alone.\nset Title = Offender\n";
+  const auto& values = run.scene.values;
+  std::string contact =
+      set("Contact modulus", m.modulus) +
+      set("Local damping", run.scene.contact.damping_kind == "local" ? stage.damping : 0.0);
+  for (const char* key :
+       {"Law", "Tangential ratio", "Round law", "Restitution", "Poisson", "Stiffness", "Damping",
+        "Torsional friction", "Rolling resistance", "Largest overlap"})
+    contact += set(key, values.at(std::string("Contact/") + key));
+  out << section("Contact", contact)
+      << section("Grains",
+                 set("Density", values.at("Grains/Density")) + set("Friction", m.friction))
+      << section("Numerics", set("Time step", run.stage.dt) +
+                                 set("Largest speed", values.at("Numerics/Largest speed")))
+      << section("Replay", set("Bodies", "offender.csv") + set("Motion", motion.str()) +
+                               set("Held", held.str()) + set("Steps", kSteps));
+  write_aside_then_rename(stem + ".prm", out.str());
+  return stem + ".prm";
+}
+
+Stage replay_stage(const Scene& s) {
+  Stage stage;
+  stage.name = "replay";
+  stage.modulus = s.contact.modulus;
+  stage.damping = s.contact.damping;
+  stage.margin = s.numerics.margin;
+  stage.friction = s.grains.friction;
+  stage.longest = s.replay.steps * s.numerics.time_step;
+  stage.ledger = true;
+  stage.enter = place_bodies;
+  stage.load = [](const Run&, double) { return 0.0; };
+  return stage;
+}
+
+}  // namespace trackbed::apps

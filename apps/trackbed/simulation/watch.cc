@@ -1,0 +1,142 @@
+#include "apps/trackbed/simulation/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "apps/trackbed/simulation/actors.h"
+#include "apps/trackbed/simulation/replay.h"
+#include "dem/motion/energy.h"
+
+namespace trackbed::apps {
+namespace {
+
+constexpr double kFactor = 3;  // on the speed that can be explained: grains that push each other
+
+// Plate or rigid sleeper, and the nodes of deforming surfaces.
+double fastest_driven(const Run& run) {
+  const coupling::World& w = run.world;
+  double most = 0;
+  for (int i = w.bodies.grains; i < w.bodies.size(); ++i)
+    most = std::max(most, w.bodies.v[i].norm());
+  for (const coupling::Surface& s : w.surfaces)
+    for (const dem::Vec3& v : s.patch.velocity) most = std::max(most, v.norm());
+  return most;
+}
+
+double strongest_contact(const Run& run) {
+  const coupling::World& w = run.world;
+  double most = 0;
+  for (const double u : w.pairs.energy) most = std::max(most, u);
+  for (const coupling::Surface& s : w.surfaces)
+    for (const double u : s.contacts.energy) most = std::max(most, u);
+  return most;
+}
+
+dem::StateLimits limits(const Run& run, const Watch& watch, const dem::Vec3& gravity) {
+  dem::StateLimits l;
+  l.overlap = run.scene.contact.largest_overlap;
+  const double given = run.scene.numerics.largest_speed;
+  l.speed = {given, 0};
+  if (given == 0) {
+    const double known = std::sqrt(2 * gravity.norm() * watch.fall) + watch.driven;
+    l.speed = {kFactor * known, kFactor * kFactor * watch.energy};
+  }
+  if (is_replay(run.scene)) return l;
+  const Layout& box = run.layout;
+  const dem::Vec3 room = dem::Vec3::Constant(0.3);
+  l.region.low = box.low - room, l.region.high = box.high + room;
+  if (run.scene.test.type == "angle_of_repose") l.region.high.x() += run.scene.test.floor_length;
+  l.region.high.z() = HUGE_VAL;
+  for (int k = 0; k < 2; ++k)
+    if (box.period[k] > 0) l.region.low[k] = -HUGE_VAL, l.region.high[k] = HUGE_VAL;
+  return l;
+}
+
+std::string when(const Run& run, const Stage& stage) {
+  char text[100];
+  std::snprintf(text, sizeof text, "%s, %.6g s", stage.name.c_str(), run.world.time);
+  return text;
+}
+
+void check_surfaces(const Run& run, const Stage& stage) {
+  const coupling::World& w = run.world;
+  const double allowed = run.scene.contact.largest_overlap;
+  for (const coupling::Surface& s : w.surfaces)
+    for (int k = 0; k < s.contacts.size(); ++k) {
+      if (!s.contacts.touching[k]) continue;
+      const int i = s.contacts.grain[k];
+      const double size = std::cbrt(w.shapes.shape(w.bodies.shape[i]).volume);
+      const double share = s.contacts.depth[k] / size;
+      if (share <= allowed) continue;
+      char text[400];
+      std::snprintf(text, sizeof text,
+                    "step %ld (%s): grain %d and the %s overlap by %.3g m, %.3g %% of the grain's "
+                    "size (allowed %.3g %%). Likely cause: the contact modulus is too soft for the "
+                    "load, or the time step %.3g s is too large. Remedy: a larger "
+                    "Contact/Contact modulus, or a smaller Numerics/Margin.",
+                    w.step, when(run, stage).c_str(), i, s.patch.name.c_str(), s.contacts.depth[k],
+                    100 * share, 100 * allowed, run.stage.dt);
+      throw dem::StateFault(text, i, -1);
+    }
+}
+
+}  // namespace
+
+Watch start_watch(const Run& run) {
+  Watch watch;
+  const dem::Bodies& b = run.world.bodies;
+  watch.before = b;
+  watch.fall = std::max(0.0, highest_grain(run, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL));
+  watch.driven = fastest_driven(run);
+  for (int i = 0; i < b.grains; ++i) watch.driven = std::max(watch.driven, b.v[i].norm());
+  watch.energy = strongest_contact(run);
+  return watch;
+}
+
+void inspect(const Run& run, const Stage& stage, Watch& watch) {
+  const coupling::World& w = run.world;
+  const dem::StepContext c = step_context(run, stage);
+  watch.driven = std::max(watch.driven, fastest_driven(run));
+  dem::check_state(w.bodies, w.shapes, w.pairs, c, w.step, limits(run, watch, c.gravity),
+                   when(run, stage));
+  check_surfaces(run, stage);
+  watch.energy = std::max(watch.energy, strongest_contact(run));
+  watch.before = w.bodies;
+}
+
+void check_ledger(const Run& run, const Stage& stage) {
+  const StageState& s = run.stage;
+  const coupling::World& w = run.world;
+  const double allowed = run.scene.numerics.closure;
+  double put_in = s.work_in;
+  if (stage.ledger && stage.control)
+    put_in += std::max(
+        0.0, w.start.gravity - dem::gravity_energy(w.bodies, step_context(run, stage).gravity));
+  if (!stage.ledger || !(put_in > 0)) return;
+  const bool open = s.worst_closure > allowed * put_in;
+  const double amount = open ? s.worst_closure : s.exchange_gain;
+  if (!open && !(s.exchange_gain > allowed * put_in)) return;
+  const dem::Deepest deepest = dem::deepest_overlap(w.bodies, w.shapes, w.pairs);
+  const int a = deepest.pair < 0 ? -1 : w.pairs.a[deepest.pair];
+  const int b = deepest.pair < 0 ? -1 : w.pairs.b[deepest.pair];
+  char pair[120] = "";
+  if (a >= 0)
+    std::snprintf(pair, sizeof pair, " The deepest contact is that of bodies %d and %d, %.2g m.", a,
+                  b, w.pairs.depth[deepest.pair]);
+  char text[600];
+  std::snprintf(text, sizeof text,
+                "step %ld (%s): %s %.3g J, %.2g %% of the %.3g J put in; Numerics/Closure "
+                "allows %.2g %%. %s%s",
+                w.step, when(run, stage).c_str(),
+                open ? "the energy ledger is open by" : "the exchange with the structures made",
+                amount, 100 * amount / put_in, put_in, 100 * allowed,
+                open ? "The time step is probably too large for the contacts: halve "
+                       "Numerics/Margin or Numerics/Time step."
+                     : "Its steps are too long, or it is lagged: Numerics/Exchange = predicted or "
+                       "iterated, or fewer grain steps per exchange.",
+                pair);
+  throw dem::StateFault(text, a, b);
+}
+
+}  // namespace trackbed::apps
