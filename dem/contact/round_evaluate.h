@@ -2,10 +2,9 @@
 // without friction. Included by the file that makes the instances, nowhere else.
 #pragma once
 #include "dem/contact/deepest_balls.h"
-#include "dem/contact/friction.h"
-#include "dem/contact/laws/ball_law.h"
 #include "dem/contact/release.h"
 #include "dem/contact/round_forces.h"
+#include "dem/contact/round_response.h"
 
 namespace trackbed::dem {
 
@@ -104,35 +103,14 @@ void evaluate_round_pair(const Bodies& b, const ShapeTable& shapes, const PairMa
                                           : b.mass[i] * b.mass[j] / (b.mass[i] + b.mass[j]);
   contact.dt = c.dt;
   const PairMaterial& material = materials(b.material[i], b.material[j]);
-  const BallResponse response = Law()(contact, material);
-  const Vec3 normal = -response.force * balls.n;
-  const double viscous = response.force - response.elastic;
-  pairs.viscous_loss[p] = (pairs.viscous[p] + viscous) / 2 * way;
-  pairs.viscous[p] = viscous;
-
-  Vec3 force = normal;
-  if constexpr (friction) {
-    const FrictionResult result =
-        advance_friction(material.friction, response.tangential, balls.n, response.force, slip,
-                         pairs.friction[p], pairs.friction_stiffness[p]);
-    force += pairs.friction[p];
-    pairs.friction_energy[p] = result.stored;
-    pairs.friction_loss[p] = result.dissipated;
-  }
-  pairs.touching[p] = 1;
+  const double force = respond<Law, friction>(material, contact, balls.n, slip, pairs, p);
   pairs.axis[p] = balls.n;
   pairs.arm_a[p] = arm_a;
   pairs.arm_b[p] = arm_b;
-  pairs.force[p] = force;
   pairs.couple[p].setZero();
-  pairs.normal_force[p] = normal;
-  pairs.energy[p] = response.energy;
-  pairs.area[p] = M_PI * contact.radius * balls.overlap;
-  pairs.depth[p] = balls.overlap;
-  pairs.stiffness[p] = response.stiffness;
   if constexpr (Geometry::kind == PairKind::cores)
     // A crowned face rolls: the contact moves by its radius of curvature.
-    pairs.tilt_stiffness[p] = response.force / (part_a.crown + part_b.crown);
+    pairs.tilt_stiffness[p] = force / (part_a.crown + part_b.crown);
 }
 
 template <class Geometry, class Law, bool friction>

@@ -5,10 +5,10 @@
 
 #include "base/error.h"
 #include "dem/contact/deepest_balls.h"
-#include "dem/contact/friction.h"
 #include "dem/contact/laws/hertz_mindlin.h"
 #include "dem/contact/laws/linear.h"
 #include "dem/contact/laws/sun2015.h"
+#include "dem/contact/round_response.h"
 #include "dem/surface/patch_evaluate.h"
 #include "dem/surface/shell_cell.h"
 
@@ -140,33 +140,12 @@ bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMater
   const double way = best.n.dot(slip.displacement);
   const PairMaterial& material = materials(b.material[g], patch.material);
   const BallContact contact{best.overlap, part.radius, c.dt > 0 ? way / c.dt : 0, b.mass[g], c.dt};
-  const BallResponse response = Law()(contact, material);
-  const Vec3 normal = -response.force * best.n;
-  const double viscous = response.force - response.elastic;
-  k.viscous_loss[i] = (k.viscous[i] + viscous) / 2 * way;
-  k.viscous[i] = viscous;
-
-  Vec3 force = normal;
-  if constexpr (friction) {
-    const FrictionResult result =
-        advance_friction(material.friction, response.tangential, best.n, response.force, slip,
-                         k.friction[i], k.friction_stiffness[i]);
-    force += k.friction[i];
-    k.friction_energy[i] = result.stored;
-    k.friction_loss[i] = result.dissipated;
-  }
-  for (int j = 0; j < 3; ++j) nodal.push_back({nodes[j], -best.weight[j] * force});
-  k.touching[i] = 1;
+  const double force = respond<Law, friction>(material, contact, best.n, slip, k, i);
+  for (int j = 0; j < 3; ++j) nodal.push_back({nodes[j], -best.weight[j] * k.force[i]});
   k.arm[i] = arm;
   k.point[i] = b.x[g] + arm;
-  k.force[i] = force;
-  k.torque[i] = arm.cross(force);
-  k.normal_force[i] = normal;
-  k.energy[i] = response.energy;
-  k.area[i] = M_PI * part.radius * best.overlap;
-  k.depth[i] = best.overlap;
-  k.stiffness[i] = response.stiffness;
-  k.tilt_stiffness[i] = part.crown > 0 ? response.force / part.crown : 0;
+  k.torque[i] = arm.cross(k.force[i]);
+  k.tilt_stiffness[i] = part.crown > 0 ? force / part.crown : 0;
   return true;
 }
 

@@ -106,6 +106,25 @@ double largest_spin(double torsion) {
   return most;
 }
 
+// Without friction nothing else writes what the springs add to: it must not pile up step by step.
+TEST(Rolling, of_frictionless_spheres_stores_its_own_energy_only) {
+  Scene s(1e7, 0);
+  s.resistance.rolling = .1;
+  s.add(sphere_shape(.02), 2600, {0, 0, 0});
+  s.add(sphere_shape(.02), 2600, {0, 0, .0399});
+  s.prepare();
+  ASSERT_EQ(count_contacts(s.pairs), 1);
+  s.bodies.turn[0] = Vec3(1e-5, 0, 0);
+  for (int n = 0; n < 5; ++n) {
+    s.evaluate_pairs(1e-5);
+    s.bodies.turn[0].setZero();
+    const double expected = s.pairs.rolling[0].squaredNorm() / (2 * s.pairs.rolling_stiffness[0]);
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(s.pairs.friction_energy[0], expected, 1e-12 * expected) << n;
+    EXPECT_EQ(s.pairs.friction_loss[0], 0);
+  }
+}
+
 TEST(Torsion, keeps_an_offset_stack_from_turning) {
   EXPECT_GT(largest_spin(0), 1e-3);
   EXPECT_LT(largest_spin(1), 1e-6);
