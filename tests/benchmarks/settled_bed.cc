@@ -65,39 +65,63 @@ void add_base(Scene& s) {
   add_container(s.bodies, s.shapes, Vec3::Zero(), p + Vec3(0, 0, 1), 3 * p.x(), 0, kBase);
 }
 
-// Place, turn and radius (to know the grain again) of each; contacts find their forces anew.
+// Each grain's shape, place and turn, so that reading needs no hulls (nor exact arithmetic, which
+// instruction counters do not follow); contacts find their forces anew.
 std::string file_name(const BedSettings& b) {
   char name[80];
-  std::snprintf(name, sizeof name, "/bed_%d_%.0e_%.2f.txt", b.grains, b.modulus, b.friction);
+  std::snprintf(name, sizeof name, "/settled_%d_%.0e_%.2f.txt", b.grains, b.modulus, b.friction);
   return b.folder + name;
 }
 
-void write_places(const Scene& s, const std::string& name) {
-  std::FILE* file = std::fopen((name + ".new").c_str(), "w");
-  if (!file) return;
+void write_bed(const Scene& s, const std::string& name) {
+  std::ofstream file(name + ".new");
+  file.precision(17);
+  const auto put = [&file](const auto& v) {
+    for (int k = 0; k < v.size(); ++k) file << ' ' << v[k];
+  };
+  put(s.context.period);
   for (int i = 0; i < s.bodies.grains; ++i) {
-    const Vec3& x = s.bodies.x[i];
-    const Quat& q = s.bodies.q[i];
-    std::fprintf(file, "%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", x.x(), x.y(), x.z(),
-                 q.w(), q.x(), q.y(), q.z(), s.shapes.shape(s.bodies.shape[i]).radius);
+    const GrainShape& g = s.shapes.shape(s.bodies.shape[i]);
+    file << '\n' << g.body.vertices.size() << ' ' << g.body.faces.size();
+    put(s.bodies.x[i]), put(s.bodies.q[i].coeffs()), put(g.inertia);
+    file << ' ' << g.volume << ' ' << g.radius;
+    for (const Vec3& v : g.body.vertices) put(v);
+    for (const std::vector<int>& face : g.body.faces) {
+      file << ' ' << face.size();
+      for (int v : face) file << ' ' << v;
+    }
   }
-  if (std::fclose(file) == 0) std::rename((name + ".new").c_str(), name.c_str());
+  file.close();
+  if (file) std::rename((name + ".new").c_str(), name.c_str());
 }
 
-// False when the file is missing or of other grains.
-bool read_places(Scene& s, const std::string& name) {
+// False when the file is missing or short.
+bool read_bed(Scene& s, int grains, const std::string& name) {
   std::ifstream file(name);
-  Bodies& b = s.bodies;
-  for (int i = 0; i < b.grains; ++i) {
-    double v[8];
-    for (double& value : v)
-      if (!(file >> value)) return false;
-    if (v[7] != s.shapes.shape(b.shape[i]).radius) return false;
-    b.x[i] = Vec3(v[0], v[1], v[2]);
-    b.q[i] = Quat(v[3], v[4], v[5], v[6]);
-    b.R[i] = b.q[i].toRotationMatrix();
+  const auto get = [&file](auto&& v) {
+    for (int k = 0; k < v.size(); ++k) file >> v[k];
+  };
+  get(s.context.period);
+  for (int i = 0; i < grains; ++i) {
+    std::size_t vertices = 0, faces = 0;
+    if (!(file >> vertices >> faces)) return false;
+    GrainShape g;
+    Vec3 x;
+    Quat q;
+    get(x), get(q.coeffs()), get(g.inertia);
+    file >> g.volume >> g.radius;
+    g.body.vertices.resize(vertices), g.body.faces.resize(faces);
+    for (Vec3& v : g.body.vertices) get(v);
+    for (std::vector<int>& face : g.body.faces) {
+      std::size_t corners = 0;
+      file >> corners;
+      if (!file) return false;
+      face.resize(corners);
+      for (int& v : face) file >> v;
+    }
+    add_grain(s.bodies, s.shapes, s.shapes.add(g), 0, kDensity, x, q);
   }
-  return true;
+  return bool(file);
 }
 
 }  // namespace
@@ -109,18 +133,17 @@ Scene loose_bed(int grains) {
 }
 
 Scene settled_bed(const BedSettings& b) {
-  const Scene loose = loose_grains(b.grains);
-  Scene s = loose;
-  const bool kept = !b.folder.empty() && read_places(s, file_name(b));
-  if (!kept) s = loose;
+  Scene kept(b.modulus, b.friction);
+  const bool found = !b.folder.empty() && read_bed(kept, b.grains, file_name(b));
+  Scene s = found ? kept : loose_grains(b.grains);
   add_base(s);
   s.context.threads = b.threads;
-  if (!kept) {
+  if (!found) {
     for (int k = 0; k < 4; ++k) settle(s, 5e7, .1, .2, .15);
     settle(s, 5e7, .1, .7, .15);
     settle(s, 3e8, b.friction, .7, .03);
     settle(s, b.modulus, b.friction, .7, .02);
-    if (!b.folder.empty()) write_places(s, file_name(b));
+    if (!b.folder.empty()) write_bed(s, file_name(b));
   }
   settle(s, b.modulus, b.friction, .8, 2e-3);  // friction finds its forces again
   return s;
