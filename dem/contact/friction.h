@@ -46,8 +46,8 @@ inline Vec3 turned(const Vec3& v, const Vec3& turn) {
   const double t2 = turn.squaredNorm();
   double s, c;  // sin t / t, (1 - cos t)/t^2
   if (t2 < 1e-3) {
-    s = 1 - t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72)));
-    c = 0.5 - t2 / 24 * (1 - t2 / 30 * (1 - t2 / 56 * (1 - t2 / 90)));
+    s = 1 - t2 * (1. / 6 - t2 * (1. / 120 - t2 * (1. / 5040 - t2 * (1. / 362880))));
+    c = 0.5 - t2 * (1. / 24 - t2 * (1. / 720 - t2 * (1. / 40320 - t2 * (1. / 3628800))));
   } else {
     const double t = std::sqrt(t2);
     s = std::sin(t) / t;

@@ -146,16 +146,11 @@ bool overlap_again(const ConvexView& a, const Pose& pa, const ConvexView& b, con
                    OverlapMoments& moments) {
   const PlacedBody body_a = placed(a, pa, frame), body_b = placed(b, pb, frame);
   const Mark mark(work);
-  int corners = 0;
-  if (feature.code) {
-    corners = clip_feature(body_a, body_b, SimpleFeature::of(feature.code), work);
-    if (corners == 0) return false;
-    work.feature = feature;
-  } else if (!clip_faces(body_a, body_b, feature, work)) {
+  if (!clip_faces(body_a, body_b, feature, work)) {
     mark.back(work);
     return false;
   }
-  return sum_moments(corners == 4, mark, work, moments);
+  return sum_moments(false, mark, work, moments);
 }
 
 }  // namespace trackbed::dem

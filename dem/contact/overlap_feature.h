@@ -1,10 +1,7 @@
 // An overlap found from what it was made of in the last step: a vertex and a face, two edges (the
-// two commonest overlaps, overlap_simple.h), or else the faces that bounded it. While these still
-// are what meets, no other part of the bodies need be looked at, except to prove it:
+// two commonest, in closed form: simple_contact.h), or else the faces that bounded it. While these
+// still are what meets, no other part of the bodies need be looked at, except to prove it:
 //
-//   simple kinds: the overlap lies within the planes named. Where these enclose no more than the
-//     hull of the points found, and all the points lie inside all planes of both bodies, the two
-//     are the same.
 //   faces: a face's piece is right when its corners lie inside all planes of the other body; no
 //     piece is missing when the vector areas add up to nothing.
 //
@@ -27,9 +24,9 @@ struct SimpleFeature {
   }
 };
 
-/// As overlap(), for bodies that overlapped with this feature; `frame` need only have its origin
-/// near the contact and its third axis near the normal. False when the overlap is of another kind
-/// now, or none.
+/// As overlap(), for bodies whose overlap was bounded by these faces; `frame` need only have its
+/// origin near the contact and its third axis near the normal. False when others bound it now, or
+/// nothing overlaps.
 bool overlap_again(const ConvexView& a, const Pose&, const ConvexView& b, const Pose&,
                    const ContactFrame&, const OverlapFeature&, OverlapWorkspace&, OverlapMoments&);
 

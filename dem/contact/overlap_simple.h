@@ -44,8 +44,4 @@ struct Side {
 Clipped clip_simple(const PlacedBody& a, const Side&, const PlacedBody& b, const Side&,
                     OverlapWorkspace&);
 
-/// The same when the feature is known; returns the number of the overlap's corners, 0 when it is
-/// something else.
-int clip_feature(const PlacedBody& a, const PlacedBody& b, const SimpleFeature&, OverlapWorkspace&);
-
 }  // namespace trackbed::dem

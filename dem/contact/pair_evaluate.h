@@ -8,6 +8,7 @@
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/pressure.h"
 #include "dem/contact/release.h"
+#include "dem/contact/simple_contact.h"
 
 namespace trackbed::dem {
 
@@ -22,6 +23,52 @@ inline double tilt_stiffness(const OverlapShape& s, double stiffness) {
 /// Angle between a frame's normal and the vector area's from which the frame is made anew [rad].
 inline constexpr double kFrameTurn = 1e-10;
 
+/// A contact's normal part, world axes but for the shape.
+struct NormalContact {
+  OverlapShape shape;
+  NormalResponse response;
+  OverlapFeature feature;
+  Vec3 force, couple;  ///< on a [N], about the centroid [N m]
+  Vec3 centroid;       ///< [m]
+};
+
+template <class Law>
+void normal_contact(const SimpleContact& s, const PairMaterial& material, NormalContact& c) {
+  c.shape = s.shape;
+  c.response = Law()(s.shape, material);
+  const PressureForce f = integrate_pressure(s.corner, s.corners, s.shape, c.response);
+  // The pressure over the whole boundary has neither force nor moment: Q and C commute.
+  const double sense = s.of_a ? -1 : 1;
+  c.force = s.frame.axes * (sense * f.force);
+  c.couple = s.frame.axes * (sense * f.moment);
+  c.centroid = s.frame.axes * s.shape.centroid + s.frame.origin;
+}
+
+/// From the overlap in `work`, as clipped. `axis` and the overlap are made anew where the law asks
+/// for it; false when they are gone then.
+template <class Law, class Clip>
+bool normal_contact(const OverlapMoments& moments, const ContactFrame& frame,
+                    const OverlapWorkspace& work, const PairMaterial& material, Clip&& clip,
+                    Vec3& axis, NormalContact& c) {
+  c.shape = make_shape(moments, work);
+  if constexpr (!Law::stores_energy) {
+    // Depth and force are along the frame's normal: it must be that of this overlap's vector area.
+    const Vec3& area = c.shape.area;
+    if (area.head<2>().squaredNorm() > kFrameTurn * kFrameTurn * area.squaredNorm()) {
+      axis = (frame.axes * area).normalized();
+      if (!clip()) return false;
+      c.shape = make_shape(moments, work);
+    }
+  }
+  c.response = Law()(c.shape, material);
+  const PressureForce f = integrate_pressure(work, work.a_pieces, c.shape, c.response);
+  c.force = -(frame.axes * f.force);
+  c.couple = -(frame.axes * f.moment);
+  c.centroid = frame.axes * c.shape.centroid + frame.origin;
+  c.feature = work.feature;
+  return true;
+}
+
 template <class Law, bool friction>
 void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                    const StepContext& c, const std::vector<double>& travel, OverlapWorkspace& work,
@@ -31,46 +78,43 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
                    &vb = shapes.part(b.shape[j], pairs.part_b[p]).core;
   const Pose pa{b.R[i], b.x[i]};
   const Pose pb{b.R[j], b.x[j] + nearest_image(b.x[i], b.x[j], c.period)};
-
-  // Touching pairs go straight to the overlap with their last normal, or what it was made of.
-  Vec3& axis = pairs.axis[p];
-  OverlapMoments moments;
-  ContactFrame frame;
-  const auto overlaps = [&] {
-    frame = contact_frame(va, pa, vb, pb, axis);
-    work.clear();
-    moments = OverlapMoments();
-    return overlap(va, pa, vb, pb, frame, work, moments);
-  };
-  const OverlapFeature feature{pairs.feature[p], pairs.faces_a[p], pairs.faces_b[p]};
-  const auto overlaps_again = [&] {
-    frame = {pa.x + pairs.arm_a[p], axes_along(axis)};
-    work.clear();
-    return overlap_again(va, pa, vb, pb, frame, feature, work, moments);
-  };
-  if (!(feature && overlaps_again()) && !(pairs.touching[p] && overlaps())) {
-    const double gap = separating_axis(va, pa, vb, pb, axis);
-    if (gap > 0) pairs.wake[p] = travel[i] + travel[j] + gap;
-    if (gap > 0 || !overlaps()) return release(pairs, p);
-  }
-
   const PairMaterial& material = materials(b.material[i], b.material[j]);
-  OverlapShape shape = make_shape(moments, work);
-  if constexpr (!Law::stores_energy) {
-    // Depth and force are along the frame's normal: it must be that of this overlap's vector area.
-    if (shape.area.head<2>().squaredNorm() > kFrameTurn * kFrameTurn * shape.area.squaredNorm()) {
-      axis = (frame.axes * shape.area).normalized();
-      if (!overlaps()) return release(pairs, p);
-      shape = make_shape(moments, work);
+
+  // Touching pairs go straight to what their overlap was made of, then to the overlap with their
+  // last normal.
+  Vec3& axis = pairs.axis[p];
+  NormalContact contact;
+  contact.feature = {pairs.feature[p], pairs.faces_a[p], pairs.faces_b[p]};
+  SimpleContact simple;
+  if (contact.feature.code &&
+      simple_contact(va, pa, vb, pb, SimpleFeature::of(contact.feature.code), simple)) {
+    normal_contact<Law>(simple, material, contact);
+  } else {
+    OverlapMoments moments;
+    ContactFrame frame;
+    const auto overlaps = [&] {
+      frame = contact_frame(va, pa, vb, pb, axis);
+      work.clear();
+      moments = OverlapMoments();
+      return overlap(va, pa, vb, pb, frame, work, moments);
+    };
+    const auto overlaps_again = [&] {
+      frame = {pa.x + pairs.arm_a[p], axes_along(axis)};
+      work.clear();
+      return overlap_again(va, pa, vb, pb, frame, contact.feature, work, moments);
+    };
+    if (!(contact.feature.faces_a && overlaps_again()) && !(pairs.touching[p] && overlaps())) {
+      const double gap = separating_axis(va, pa, vb, pb, axis);
+      if (gap > 0) pairs.wake[p] = travel[i] + travel[j] + gap;
+      if (gap > 0 || !overlaps()) return release(pairs, p);
     }
+    if (!normal_contact<Law>(moments, frame, work, material, overlaps, axis, contact))
+      return release(pairs, p);
   }
-  const NormalResponse response = Law()(shape, material);
-  const PressureForce pressure = integrate_pressure(work, work.a_pieces, shape, response);
-  const Vec3 normal = -(frame.axes * pressure.force);
-  const double size = normal.norm();
-  const Vec3 centroid = frame.axes * shape.centroid + frame.origin;
-  const Vec3 arm_a = centroid - pa.x, arm_b = centroid - pb.x;
-  const double area = shape.area.norm();
+
+  const Vec3& normal = contact.force;
+  const double size = normal.norm(), area = contact.shape.area.norm();
+  const Vec3 arm_a = contact.centroid - pa.x, arm_b = contact.centroid - pb.x;
   if (size > 0) axis = -normal / size;
 
   Vec3 force = normal;
@@ -89,19 +133,19 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     pairs.friction_energy[p] = pairs.friction_loss[p] = 0;  // others may add
   }
   pairs.touching[p] = 1;
-  pairs.feature[p] = work.feature.code;
-  pairs.faces_a[p] = work.feature.faces_a;
-  pairs.faces_b[p] = work.feature.faces_b;
+  pairs.feature[p] = contact.feature.code;
+  pairs.faces_a[p] = contact.feature.faces_a;
+  pairs.faces_b[p] = contact.feature.faces_b;
   pairs.arm_a[p] = arm_a;
   pairs.arm_b[p] = arm_b;
   pairs.force[p] = force;
-  pairs.couple[p] = -(frame.axes * pressure.moment);
+  pairs.couple[p] = contact.couple;
   pairs.normal_force[p] = normal;
-  pairs.energy[p] = response.energy;
+  pairs.energy[p] = contact.response.energy;
   pairs.area[p] = area;
-  pairs.depth[p] = shape.depth;
-  pairs.stiffness[p] = response.stiffness;
-  pairs.tilt_stiffness[p] = tilt_stiffness(shape, response.stiffness);
+  pairs.depth[p] = contact.shape.depth;
+  pairs.stiffness[p] = contact.response.stiffness;
+  pairs.tilt_stiffness[p] = tilt_stiffness(contact.shape, contact.response.stiffness);
 }
 
 /// The pairs that may touch, in order; of the others, what only a step's evaluation sets.
@@ -115,6 +159,35 @@ inline void find_awake(const std::vector<double>& travel, Pairs& pairs) {
   }
 }
 
+// The data of the next pairs are asked for before they are needed: else much of a contact's time
+// is spent waiting for memory, body by body. Farther ahead they would push each other out again.
+inline void fetch_lines(const void* p, int lines) {
+  for (int k = 0; k < lines; ++k) __builtin_prefetch(static_cast<const char*>(p) + 64 * k);
+}
+
+// Bodies and views of a pair, then its planes and vertices: the second reads what the first asked
+// for.
+inline void fetch_bodies(const Bodies& b, const ShapeTable& shapes, const Pairs& pairs, int p) {
+  const int j = pairs.b[p];
+  for (const Vec3* at : {&b.x[j], &b.v[j], &b.turn[j]})  // may lie across two lines
+    fetch_lines(at->data(), 1), fetch_lines(at->data() + 2, 1);
+  fetch_lines(&b.R[j], 2);
+  fetch_lines(&shapes.part(b.shape[j], pairs.part_b[p]), 1);
+  fetch_lines(&shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]), 1);
+}
+
+inline void fetch_shapes(const Bodies& b, const ShapeTable& shapes, const Pairs& pairs, int p) {
+  const SimpleFeature f = SimpleFeature::of(pairs.feature[p]);
+  const auto fetch = [](const ConvexView& v, bool vertex, int i) {
+    fetch_lines(v.nx, (v.faces + 7) / 8 * 4);  // all four of the planes
+    if (vertex) fetch_lines(Star(v, i).at, 2);
+  };
+  fetch(shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]).core,
+        f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_a, f.a);
+  fetch(shapes.part(b.shape[pairs.b[p]], pairs.part_b[p]).core,
+        f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_b, f.b);
+}
+
 template <class Law, bool friction>
 void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                     const StepContext& c, const std::vector<double>& travel, Pairs& pairs) {
@@ -122,9 +195,12 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
   find_awake(travel, pairs);
   const int awake = static_cast<int>(pairs.awake.size());
 #pragma omp parallel for schedule(dynamic, 32) num_threads(c.threads) if (c.threads > 1)
-  for (int k = 0; k < awake; ++k)
+  for (int k = 0; k < awake; ++k) {
+    if (k + 2 < awake) fetch_bodies(b, shapes, pairs, pairs.awake[k + 2]);
+    if (k + 1 < awake) fetch_shapes(b, shapes, pairs, pairs.awake[k + 1]);
     evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
                                  pairs.workspaces[omp_get_thread_num()], pairs, pairs.awake[k]);
+  }
 }
 
 /// The two instances of a law.

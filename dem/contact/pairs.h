@@ -131,8 +131,11 @@ void for_each_array(const Pairs& p, F&& f) {
 /// What to add to the place of a body at b so that it is the image nearest to a.
 inline Vec3 nearest_image(const Vec3& a, const Vec3& b, const Vec3& period) {
   Vec3 shift = Vec3::Zero();
-  for (int d = 0; d < 3; ++d)
-    if (period[d] > 0) shift[d] = -period[d] * std::round((b[d] - a[d]) / period[d]);
+  for (int d = 0; d < 3; ++d) {
+    const double apart = b[d] - a[d];
+    if (period[d] > 0 && 2 * std::abs(apart) >= period[d])
+      shift[d] = -period[d] * std::round(apart / period[d]);
+  }
   return shift;
 }
 

@@ -54,19 +54,32 @@ Means means(const Corner& a, const Corner& b, const Corner& c, double p0) {
   return m;
 }
 
-// f(means) for the triangles of a piece's fan.
+// f(means) for the triangles of a fan of n corners.
 template <class F>
-void for_each_triangle(const OverlapWorkspace& work, const OverlapPiece& piece,
-                       const OverlapShape& s, const NormalResponse& r, F f) {
-  const Vec3* p = work.points.data() + piece.first;
+void for_each_triangle(const Vec3* p, int n, const OverlapShape& s, const NormalResponse& r,
+                       F&& f) {
   const Corner first = corner(p[0], s.centroid, r.Q);
   Corner last = corner(p[1], s.centroid, r.Q);
-  for (int i = 2; i < piece.count; ++i) {
+  for (int i = 2; i < n; ++i) {
     const Corner next = corner(p[i], s.centroid, r.Q);
     f(first, last, next, means(first, last, next, r.p0));
     last = next;
   }
 }
+
+struct Sums {
+  double on_x, on_y, on_z, fx = 0, fy = 0, fz = 0, mx = 0, my = 0, mz = 0;
+  explicit Sums(const Vec3& on) : on_x(on.x()), on_y(on.y()), on_z(on.z()) {}
+
+  void operator()(const Corner&, const Corner&, const Corner&, const Means& m) {
+    const double ax = on_x * m.area.x, ay = on_y * m.area.y, az = on_z * m.area.z;
+    fx += m.p * ax, fy += m.p * ay, fz += m.p * az;
+    mx += m.py.y * az - m.py.z * ay;
+    my += m.py.z * ax - m.py.x * az;
+    mz += m.py.x * ay - m.py.y * ax;
+  }
+  PressureForce force() const { return {Vec3(fx, fy, fz), Vec3(mx, my, mz)}; }
+};
 
 }  // namespace
 
@@ -92,18 +105,17 @@ OverlapShape make_shape(const OverlapMoments& m, const OverlapWorkspace& work) {
 PressureForce integrate_pressure(const OverlapWorkspace& work,
                                  const std::vector<OverlapPiece>& pieces, const OverlapShape& s,
                                  const NormalResponse& r) {
-  double fx = 0, fy = 0, fz = 0, mx = 0, my = 0, mz = 0;
-  const double on_x = r.acts_on.x(), on_y = r.acts_on.y(), on_z = r.acts_on.z();
+  Sums sums(r.acts_on);
   for (const OverlapPiece& piece : pieces)
-    for_each_triangle(
-        work, piece, s, r, [&](const Corner&, const Corner&, const Corner&, const Means& m) {
-          const double ax = on_x * m.area.x, ay = on_y * m.area.y, az = on_z * m.area.z;
-          fx += m.p * ax, fy += m.p * ay, fz += m.p * az;
-          mx += m.py.y * az - m.py.z * ay;
-          my += m.py.z * ax - m.py.x * az;
-          mz += m.py.x * ay - m.py.y * ax;
-        });
-  return {Vec3(fx, fy, fz), Vec3(mx, my, mz)};
+    for_each_triangle(work.points.data() + piece.first, piece.count, s, r, sums);
+  return sums.force();
+}
+
+PressureForce integrate_pressure(const Vec3* corner, int n, const OverlapShape& s,
+                                 const NormalResponse& r) {
+  Sums sums(r.acts_on);
+  for_each_triangle(corner, n, s, r, sums);
+  return sums.force();
 }
 
 PiecePressure integrate_pressure(const OverlapWorkspace& work, const OverlapPiece& piece,
@@ -112,7 +124,7 @@ PiecePressure integrate_pressure(const OverlapWorkspace& work, const OverlapPiec
   total.area = piece.area.norm();
   if (!(total.area > 0)) return {};
   total.normal = piece.area / total.area;
-  for_each_triangle(work, piece, s, r,
+  for_each_triangle(work.points.data() + piece.first, piece.count, s, r,
                     [&](const Corner& a, const Corner& b, const Corner& c, const Means& m) {
                       const double size = vector(m.area).dot(total.normal);
                       total.area_first += (size / 3) * (vector(a.y) + vector(b.y) + vector(c.y));

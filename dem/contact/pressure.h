@@ -24,6 +24,10 @@ struct PressureForce {
 PressureForce integrate_pressure(const OverlapWorkspace&, const std::vector<OverlapPiece>&,
                                  const OverlapShape&, const NormalResponse&);
 
+/// The same over a fan of triangles around the first of n corners.
+PressureForce integrate_pressure(const Vec3* corner, int n, const OverlapShape&,
+                                 const NormalResponse&);
+
 /// One piece: scalar moments of the pressure over it. With N linear on the piece's plane,
 /// int p N n dA = n (N(c') zeroth + grad N . first), c' any point: first is taken about c.
 struct PiecePressure {

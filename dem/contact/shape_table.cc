@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -108,23 +109,40 @@ ConvexView ShapeTable::add_view(const Polyhedron& body, double radius) {
   bool small_faces = true;
   for (const auto& face : body.faces) small_faces = small_faces && face.size() <= 8;
 
+  int star = 8;
+  for (const auto& c : corner_at)
+    if (c.size() <= 7) star = std::max(star, padded_to_eight(4 + 3 * static_cast<int>(c.size())));
+
   auto arrays = std::make_shared<Arrays>();
-  const std::size_t reals = 3 * padded + 4 * padded_faces + (small_faces ? 24 * faces : 0);
-  arrays->reals.resize(reals / 8);
-  double* real = arrays->reals.front().value;
+  const std::size_t reals = 3 * padded + 4 * padded_faces + (small_faces ? 24 * faces : 0),
+                    star_reals = n * star + 8;
+  double* real = reals_.take(reals + star_reals);
   ConvexView view;
-  const auto take = [&real](int count) { return std::exchange(real, real + count); };
-  double *x = take(padded), *y = take(padded), *z = take(padded);
-  for (int v = 0; v < padded; ++v) {
-    const Vec3& p = body.vertices[std::min(v, n - 1)];
-    x[v] = p.x(), y[v] = p.y(), z[v] = p.z();
-  }
+  const auto take = [&real](std::size_t count) { return std::exchange(real, real + count); };
   double *nx = take(padded_faces), *ny = take(padded_faces), *nz = take(padded_faces),
          *offset = take(padded_faces);
   for (int f = 0; f < padded_faces; ++f) {
     const Plane& plane = planes[std::min(f, faces - 1)];
     nx[f] = plane.normal.x(), ny[f] = plane.normal.y(), nz[f] = plane.normal.z();
     offset[f] = plane.offset;
+  }
+  double* at_vertex = take(star_reals);
+  view.stars = at_vertex, view.star_size = star;
+  for (int v = 0; v < n; ++v, at_vertex += star) {
+    const Vec3& p = body.vertices[v];
+    double* at = std::copy(p.data(), p.data() + 3, at_vertex) + 1;
+    if (corner_at[v].size() > 7 || faces > 64) continue;
+    unsigned char counts[8] = {static_cast<unsigned char>(corner_at[v].size())};
+    for (std::size_t k = 0; k < corner_at[v].size(); ++k)
+      counts[1 + k] = static_cast<unsigned char>(corner_at[v][k].face);
+    std::memcpy(at_vertex + 3, counts, 8);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const Corner& c : corner_at[v]) *at++ = body.vertices[c.next][axis] - p[axis];
+  }
+  double *x = take(padded), *y = take(padded), *z = take(padded);
+  for (int v = 0; v < padded; ++v) {
+    const Vec3& p = body.vertices[std::min(v, n - 1)];
+    x[v] = p.x(), y[v] = p.y(), z[v] = p.z();
   }
   if (small_faces) {
     view.corners = real;

@@ -5,20 +5,24 @@
 #include <memory>
 #include <vector>
 
+#include "dem/contact/line_pool.h"
 #include "dem/grain/polyhedron.h"
 
 namespace trackbed::dem {
 
-/// A convex polyhedron as the kernel sees it (non-owning; body frame).
+/// A convex polyhedron as the kernel sees it (non-owning; body frame). What most contacts need
+/// comes first, in one line of memory.
 struct ConvexView {
-  const double *x = nullptr, *y = nullptr, *z = nullptr;  ///< vertices, padded
-  int vertices = 0, padded = 0;
   const double *nx = nullptr, *ny = nullptr, *nz = nullptr,
                *offset = nullptr;  ///< n.x <= offset inside
-  int faces = 0;
+  /// Optional: the surroundings of each vertex, `star_size` reals apart (see Star).
+  const double* stars = nullptr;
+  double radius = 0;  ///< about the body's origin
+  int faces = 0, star_size = 0;
+  const double *x = nullptr, *y = nullptr, *z = nullptr;  ///< vertices, padded
+  int vertices = 0, padded = 0;
   const std::uint16_t* loop_begin = nullptr;  ///< faces+1 entries into loop
   const std::uint16_t* loop = nullptr;        ///< vertex indices, counter-clockwise from outside
-  double radius = 0;                          ///< about the body's origin
   /// Optional (null in views made by hand, which then take a slower way): the vertices each vertex
   /// has an edge to, clockwise seen from outside, the face left of each such edge v -> w (its loop
   /// runs v, w; it lies between this neighbour and the next), and the faces of each vertex as bits
@@ -33,11 +37,26 @@ struct ConvexView {
   const double* corners = nullptr;
 };
 
+/// One vertex: its place, `edges` edges to its neighbours in the order of ConvexView::neighbor (x
+/// of all, then y, then z; eight may be read from each) and the faces left of them. A vertex of
+/// more than seven edges, or of a body of more than 64 faces, has `edges` = 0.
+struct Star {
+  const double* at;
+  Star(const ConvexView& v, int vertex) : at(v.stars + v.star_size * vertex) {}
+  const unsigned char* counts() const { return reinterpret_cast<const unsigned char*>(at + 3); }
+  int edges() const { return counts()[0]; }
+  int left_face(int edge) const { return counts()[1 + edge]; }
+  int right_face(int edge) const { return left_face((edge > 0 ? edge : edges()) - 1); }
+  const double* x() const { return at + 4; }
+  const double* y() const { return x() + edges(); }
+  const double* z() const { return y() + edges(); }
+};
+
 /// The core of a part: a point (spheres), or a polyhedron with or without a radius around it.
 enum class Core : std::uint8_t { point, dilated, plain };
 
 /// One convex part of a shape as the kernels read it (see ConvexPart).
-struct PartView {
+struct alignas(64) PartView {
   ConvexView core;             ///< empty for a point
   Vec3 centre = Vec3::Zero();  ///< of a point, body frame [m]
   double radius = 0, crown = 0, mean_square = 0;
@@ -59,17 +78,14 @@ class ShapeTable {
   const GrainShape& shape(int s) const { return shapes_[s]; }
 
  private:
-  // The arrays of one shape, together in memory as the kernel reads them; never moves or changes.
-  struct alignas(64) Line {
-    double value[8];
-  };
+  // Of one shape, besides its reals; never moves or changes.
   struct Arrays {
-    std::vector<Line> reals;             // x, y, z; nx, ny, nz, offset; corners
     std::vector<std::uint64_t> bits;     // vertex_faces
     std::vector<std::uint16_t> indices;  // neighbor_begin, neighbor, left_face, loop_begin, loop
   };
   ConvexView add_view(const Polyhedron&, double radius);
 
+  LinePool reals_;  // of each shape: nx, ny, nz, offset; stars; x, y, z; corners
   std::vector<std::shared_ptr<const Arrays>> arrays_;
   std::vector<PartView> parts_;
   std::vector<int> part_first_{0};

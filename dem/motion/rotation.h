@@ -10,8 +10,8 @@ namespace trackbed::dem {
 inline void sin_cos(double x, double& s, double& c) {
   const double y = x * x;
   if (y < 0.0025) {
-    s = x * (1 - y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72))));
-    c = 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56)));
+    s = x * (1 - y * (1. / 6 - y * (1. / 120 - y * (1. / 5040 - y * (1. / 362880)))));
+    c = 1 - y * (1. / 2 - y * (1. / 24 - y * (1. / 720 - y * (1. / 40320))));
   } else {
     s = std::sin(x);
     c = std::cos(x);
