@@ -94,10 +94,11 @@ void iterate(World& w, Surface& s, const dem::StepContext& c) {
     dem::move_skirt(s.patch);
     s.contacts.node_travel += factor * farthest;
   }
-  char text[240];
+  char text[320];
   std::snprintf(text, sizeof text,
                 "step %ld: the exchange with the %s did not converge in %d iterations (it still "
-                "moves by %.2g m); the time step is probably too large",
+                "moves by %.2g m); the time step is probably too large, or a static structure much "
+                "softer than its contacts",
                 w.step, s.patch.name.c_str(), w.exchange.most_iterations, remains);
   throw RunError(text);
 }

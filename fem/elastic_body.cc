@@ -157,7 +157,10 @@ Vec ElasticBody::load_displacement(int load) const {
 }
 
 double ElasticBody::mass() const { return parts_->mass(); }
-double ElasticBody::least_surface_mass() const { return parts_->least_surface_mass(); }
+double ElasticBody::least_surface_mass() const {
+  return parts_->is_static() ? std::numeric_limits<double>::infinity()
+                             : parts_->least_surface_mass();
+}
 double ElasticBody::largest_frequency() const { return fem::largest_frequency(parts_->matrices()); }
 double ElasticBody::largest_step() const { return parts_->stepper.largest_step(); }
 int ElasticBody::solver_iterations() const { return parts_->stepper.iterations(); }

@@ -271,6 +271,10 @@ void add_subgrade(Section s) {
            "of finite elements to modes; condensed keeps every static load on the surface");
   s.integer("Modes", "20", 1, 1000, "lowest elastic modes of a reduced subgrade");
   s.choice(
+      "Inertia", "on", {"on", "off", "auto"},
+      "of the elastic subgrade; off: a static answer at each exchange, which is then iterated; "
+      "auto: off where the load's harmonics stay below a quarter of the first mode");
+  s.choice(
       "Absorbing", "none", {"none", "sides", "bottom", "all"},
       "boundaries with dashpots and springs that let waves out, instead of rollers and a fixed "
       "base");

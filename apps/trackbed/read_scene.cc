@@ -10,6 +10,7 @@
 #include "apps/trackbed/choices.h"
 #include "apps/trackbed/decide.h"
 #include "apps/trackbed/freedom.h"
+#include "apps/trackbed/inertia.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/scene_text.h"
@@ -175,6 +176,7 @@ SubgradeScene subgrade(const Values& v) {
   s.friction = v.number("Subgrade/Friction");
   s.reduction = v.text("Subgrade/Reduction");
   s.modes = static_cast<int>(v.integer("Subgrade/Modes"));
+  s.inertia = v.text("Subgrade/Inertia");
   s.absorbing = v.text("Subgrade/Absorbing");
   const std::string section = "Subgrade/" + s.model;
   for (const auto& p : subgrade_parameters())
@@ -316,6 +318,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   check_packing(scene, values);
   check_grain_test(scene, values);
   check_structures(scene, values);
+  decide_inertia(scene, values);
   return scene;
 }
 

@@ -135,6 +135,7 @@ struct SubgradeScene {
   double friction;
   std::string reduction;                      ///< "none" | "condensed" | "modal"
   int modes;                                  ///< of a reduced one
+  std::string inertia;                        ///< "on" | "off" (`auto` has been decided)
   std::string absorbing;                      ///< "none" | "sides" | "bottom" | "all"
   std::map<std::string, std::string> values;  ///< of the model's own section: key to text
 };

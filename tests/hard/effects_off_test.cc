@@ -65,6 +65,17 @@ TEST(EffectsOff, torsion_and_rolling_are_the_limit_of_none) {
   }
 }
 
+// On with no rate: the pass multiplies by one. Off: it has never been made.
+TEST(EffectsOff, adaptive_damping_is_not_called) {
+  dem::Scene off = tumbling_blocks(), on = tumbling_blocks();
+  on.adaptive = true, on.adaptive_damping.alpha = 0;
+  off.prepare(), on.prepare();
+  EXPECT_GT(run_both(off, on), 100);
+  expect_same_bits(off.bodies, on.bodies);
+  EXPECT_LT(off.adaptive_damping.kinetic, 0);
+  EXPECT_GT(on.adaptive_damping.kinetic, 0);
+}
+
 // A seam so far away that nothing meets it.
 TEST(EffectsOff, periodic_images_are_none_without_a_seam) {
   dem::Scene off = tumbling_blocks(), on = tumbling_blocks();
@@ -131,6 +142,7 @@ TEST(EffectsOff, rigid_ground_never_touches_structures) {
   coupling::run(bed, coupling::context(1e-5, {0, 0, -9.81}), 10);
   EXPECT_EQ(pair_calls, 10);
   EXPECT_EQ(patch_calls, 10);
+  EXPECT_EQ(bed.times.iterations, 0);  // of an exchange that is not iterated
 }
 
 }  // namespace

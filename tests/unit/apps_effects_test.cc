@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/trackbed/effects.h"
+#include "apps/trackbed/inertia.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/simulation/stage.h"
@@ -61,6 +62,52 @@ TEST(Auto, SleeperBendsWhereItIsLongForItsBed) {
   EXPECT_EQ(sleeper.sleeper.model, "elastic");
   EXPECT_TRUE(is_on(sleeper, "elastic sleeper"));
   EXPECT_TRUE(scene({"Sleeper/Model=elastic"}).decisions.empty());
+}
+
+// A triangle's harmonics 1, 3, 5 … have amplitudes 1/n²; two of them carry 99 % of its power. Two
+// cosines of powers 1 and 0.04: the second counts.
+TEST(Auto, HighestHarmonicOfTheLoad) {
+  LoadingScene l{};
+  l.frequency = 10;
+  for (const auto& [waveform, harmonic] :
+       {std::pair{"sine", 1}, {"haversine", 1}, {"triangle", 3}}) {
+    l.waveform = waveform;
+    EXPECT_NEAR(highest_harmonic(l), 10 * harmonic, 1e-12) << waveform;
+  }
+  l.waveform = "table";
+  l.history = {{0, .05, .1}, {0, 1, 0}};
+  EXPECT_NEAR(highest_harmonic(l), 30, 1e-12);
+  l.history = {};
+  for (int k = 0; k <= 200; ++k) {
+    const double t = k / 200.;
+    l.history.time.push_back(.1 * t);
+    l.history.load.push_back(5 - std::cos(2 * M_PI * t) + .2 * std::cos(14 * M_PI * t));
+  }
+  EXPECT_NEAR(highest_harmonic(l), 70, 1e-12);
+}
+
+// A column of 0.4 m that cannot spread: c_p² = E(1−ν)/((1+ν)(1−2ν)ρ) = 206.18² (m/s)², f = c_p/4H =
+// 128.87 Hz; slow below 32.2 Hz.
+TEST(Auto, InertiaWhereTheLoadNearsTheFirstMode) {
+  const auto column = [](const std::string& hertz, const Changes& more = {}) {
+    Changes set{"Subgrade/layered_elastic/Layers=0.4:6e7:0.3:1900", "Subgrade/Inertia=auto",
+                "Loading/Frequency=" + hertz};
+    set.insert(set.end(), more.begin(), more.end());
+    return read_scene(TINY, set);
+  };
+  EXPECT_NEAR(first_mode_of_subgrade(column("10")), 128.87, .005 * 128.87);
+  const Scene slow = column("31.8"), quick = column("32.6");
+  EXPECT_EQ(slow.subgrade.inertia, "off");
+  EXPECT_EQ(slow.numerics.exchange, "iterated");
+  EXPECT_FALSE(is_on(slow, "inertia of the subgrade"));
+  ASSERT_EQ(slow.decisions.size(), 2u);
+  EXPECT_NE(slow.decisions[0].find("31.8 Hz"), std::string::npos);
+  EXPECT_EQ(quick.subgrade.inertia, "on");
+  EXPECT_EQ(quick.numerics.exchange, "predicted");
+  EXPECT_EQ(quick.decisions.size(), 1u);
+  EXPECT_EQ(column("12", {"Loading/Waveform=triangle"}).subgrade.inertia, "on");  // its third
+  EXPECT_EQ(column("1", {"Subgrade/Model=winkler"}).subgrade.inertia, "on");
+  EXPECT_NEAR(1 / (1 - kSlowLoad * kSlowLoad) - 1, .067, 5e-4);
 }
 
 // A sleeper as a beam: L 2.6, EI 5e6, k 5e7: λ = (5e7/2e7)^(1/4) = 1.257433.

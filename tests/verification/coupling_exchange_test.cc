@@ -203,6 +203,50 @@ TEST(Drop, on_a_stiff_body_is_that_on_a_rigid_floor) {
 }
 
 // A block at rest on the elastic body: its weight reaches the support.
+// A cube pressed slowly on an elastic block: without inertia the surface is the static answer to
+// the forces it is given, and the moving block's comes within (f/f1)² of it, f1 = 350 Hz or more
+// (a column of 0.1 m held at its base, free to spread: c = √(E/ρ)).
+TEST(SlowLoad, static_surface_is_the_limit_of_the_moving_one) {
+  const double period = .05, dt = 1e-4;
+  const auto deepest = [&](bool is_static) {
+    World w;
+    w.exchange = exchange(is_static ? "iterated" : "predicted");
+    w.exchange.tolerance = 1e-8;
+    set_materials(w, 1e8, 0);
+    add_grain(w, dem::make_box({.1, .1, .1}), 2600, {0, 0, .05}, Quat::Identity(), dem::kMoveZ);
+    fem::ElasticBodyParameters p = block(5e7, {.2, .2, .1}, {4, 4, 2});
+    if (is_static) p.scheme = fem::TimeScheme::quasi_static;
+    auto owned = std::make_unique<fem::ElasticBody>(p);
+    const fem::ElasticBody& body = *owned;
+    w.surfaces.push_back(make_surface("soil", 0, .02, 0, Vec3::Zero(), std::move(owned)));
+    const dem::StepContext c = context(dt, Vec3::Zero());
+    start(w, c);
+    double lowest = 0;
+    std::vector<fem::Vec> u, v, still, f;
+    for (int k = 1; k <= std::lround(period / dt); ++k) {
+      advance(w, c, [&](World& world, double t) {
+        world.bodies.applied_force[0].z() = -500 * (1 - std::cos(2 * M_PI * t / period));
+      });
+      body.motion(u, v);
+      for (const auto& x : u) lowest = std::min(lowest, x[2]);
+      if (is_static && k % 100 == 0) {
+        const Surface& s = w.surfaces[0];
+        fem::ElasticBody other(p);
+        other.solve_static(s.forces);
+        other.motion(still, v);
+        for (std::size_t i = 0; i < u.size(); ++i)
+          EXPECT_NEAR(u[i][2], still[i][2], 1e-12 * std::abs(lowest));
+      }
+    }
+    EXPECT_LT(std::abs(closure(w.start, stores(w, c.gravity), flows(w))),
+              1e-3 * flows(w).work + 1e-6);
+    return lowest;
+  };
+  const double still = deepest(true), moving = deepest(false);
+  EXPECT_LT(still, -1e-6);
+  EXPECT_NEAR(moving / still, 1, .02);
+}
+
 TEST(Rest, weight_reaches_the_ground) {
   World w;
   set_materials(w, 1e8, .5);

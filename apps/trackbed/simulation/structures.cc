@@ -125,7 +125,8 @@ std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene& scene, cons
   site.periodic_y = scene.container.periodic;
   site.rho_inf = scene.numerics.spectral_radius;
   site.newmark = scene.numerics.spectral_radius == 1;
-  site.scheme = fem::time_scheme_of(scene.numerics.scheme);
+  site.scheme = scene.subgrade.inertia == "off" ? fem::TimeScheme::quasi_static
+                                                : fem::time_scheme_of(scene.numerics.scheme);
   site.solver = fem::solver_of(scene.numerics.solver);
   site.reduction = fem::reduction_of(scene.subgrade.reduction);
   site.modes = scene.subgrade.modes;
