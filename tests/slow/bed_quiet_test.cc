@@ -64,7 +64,7 @@ TEST(Bed, rests_for_a_million_steps) {
   EXPECT_GT(count_contacts(s.pairs), 90);
   EXPECT_LT(moved, 1e-9 * size * seconds);
   EXPECT_LT(kinetic, 1e-12 * lift);
-  EXPECT_LT(std::abs(s.closure()), 1e-12 * lift);
+  EXPECT_LT(std::abs(s.closure()), 1e-10 * lift);  // rounding of a million sums
 }
 
 // Undamped: what grows does so at a rate that the step has no say in, and not out of nowhere.
