@@ -56,8 +56,11 @@ void turn_about_axis(double angle, Quat& q, Vec3& l) {
 }
 
 /// Rotation over h [s] from the identity, body axes: R1(h/2) R2(h/2) R3(h) R2(h/2) R1(h/2).
-/// `l`: angular momentum in body (principal) axes [kg m2/s], `inertia` principal moments.
+/// `l`: angular momentum in body (principal) axes [kg m2/s], `inertia` principal moments. Where
+/// these are all the same (spheres) it is one turn about l.
 inline Quat free_rotation(double h, const Vec3& inertia, Vec3 l) {
+  if (inertia[0] == inertia[1] && inertia[1] == inertia[2])
+    return from_rotation_vector(h / inertia[0] * l);
   Quat q = Quat::Identity();
   turn_about_axis<0>(h / 2 * l[0] / inertia[0], q, l);
   turn_about_axis<1>(h / 2 * l[1] / inertia[1], q, l);
