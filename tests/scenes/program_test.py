@@ -602,6 +602,8 @@ class GrainTests(SceneTest):
                 self.assertAlmostEqual(r["sigma1_Pa"], stress + stiffness * r["axial_strain"],
                                        delta=2e-3 * (stress + stiffness * r["axial_strain"]))
                 self.assertAlmostEqual(r["volumetric_strain"], r["axial_strain"], delta=2e-5)
+                # The cube's volume in a space that the overlaps of three directions have made smaller.
+                self.assertAlmostEqual(r["porosity"], -3 * stress / stiffness - r["axial_strain"], delta=1e-4)
                 self.assertAlmostEqual(r["deviator_Pa"], r["sigma1_Pa"] - r["sigma3_Pa"], delta=1e-6 * r["sigma1_Pa"])
                 sine = (r["sigma1_Pa"] - r["sigma3_Pa"]) / (r["sigma1_Pa"] + r["sigma3_Pa"])
                 self.assertAlmostEqual(r["mobilised_angle_deg"], math.degrees(math.asin(sine)), delta=1e-6)

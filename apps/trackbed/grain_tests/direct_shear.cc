@@ -100,8 +100,10 @@ Stage shear(const Scene& s, double stress) {
     load_lid(run, f.normal);
     const Vec3 u = wall_travel(run, kTopLid);
     const double dilation = u.z() + run.test.high.z() - run.test.low.z() - run.test.lengths.z();
-    const bool last = add_to_row(run, {run.world.time, u.x(), f.shear, f.normal, dilation},
-                                 u.x() / run.scene.test.travel);
+    const double volume = run.layout.area * (run.test.lengths.z() + dilation);
+    const bool last = add_to_row(
+        run, {run.world.time, u.x(), f.shear, f.normal, dilation, 1 - run.test.solid / volume},
+        u.x() / run.scene.test.travel);
     if (last) ++run.test.specimen;
     return last;
   };

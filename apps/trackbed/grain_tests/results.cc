@@ -23,6 +23,7 @@ struct Strength {
   int freedom = 0;             // degrees, of the errors
   double held = kUnknown;      // largest deviation of a held stress, share
   double position = kUnknown;  // mean shear displacement [m] or axial strain of its rows
+  double porosity = kUnknown;  // in the first row
   bool at_end = false;         // a peak that the curve's last rows make: it may rise further
 };
 
@@ -58,9 +59,10 @@ std::vector<Curve> curves_of(const Run& run, int columns) {
 CsvCell known(double value) { return std::isfinite(value) ? CsvCell(value) : CsvCell(); }
 
 void write_strength(const Run& run, const std::vector<Strength>& rows, const std::string& file) {
-  CsvWriter csv(file, {"test", "state", "stress_Pa", "ratio", "friction_angle_deg",
-                       "angle_error_deg", "angle_ci95_deg", "cohesion_Pa", "cohesion_error_Pa",
-                       "cohesion_ci95_Pa", "inertial_number", "held_within", "position"});
+  CsvWriter csv(file,
+                {"test", "state", "stress_Pa", "ratio", "friction_angle_deg", "angle_error_deg",
+                 "angle_ci95_deg", "cohesion_Pa", "cohesion_error_Pa", "cohesion_ci95_Pa",
+                 "inertial_number", "held_within", "position", "start_porosity"});
   const double inertial = inertial_number(run.scene, run.test.size);
   for (const Strength& s : rows) {
     const double factor = confidence_factor(s.freedom);
@@ -68,7 +70,8 @@ void write_strength(const Run& run, const std::vector<Strength>& rows, const std
              known(s.angle.value / kDegree), known(s.angle.error / kDegree),
              known(factor * s.angle.error / kDegree), known(s.cohesion.value),
              known(s.cohesion.error), known(factor * s.cohesion.error),
-             inertial > 0 ? CsvCell(inertial) : CsvCell(), known(s.held), known(s.position)});
+             inertial > 0 ? CsvCell(inertial) : CsvCell(), known(s.held), known(s.position),
+             known(s.porosity)});
   }
   csv.flush();
 }
@@ -114,12 +117,12 @@ double furthest(const std::vector<double>& v, double target) {
 }
 
 std::vector<Strength> direct_shear(const Run& run, const std::string& folder) {
-  enum { kTime, kTravel, kShear, kNormal, kDilation, kColumns };
+  enum { kTime, kTravel, kShear, kNormal, kDilation, kPorosity, kColumns };
   const double area = run.layout.area;
   std::vector<Strength> found;
   CsvWriter csv(folder + "/direct_shear.csv",
                 {"stress_Pa", "time_s", "displacement_m", "shear_force_N", "shear_stress_Pa",
-                 "normal_stress_Pa", "stress_ratio", "dilation_m"});
+                 "normal_stress_Pa", "stress_ratio", "dilation_m", "porosity"});
   std::vector<double> normal[2], shear[2];  // at peak, residual
   for (const Curve& c : curves_of(run, kColumns)) {
     if (c.rows() == 0) continue;
@@ -128,7 +131,7 @@ std::vector<Strength> direct_shear(const Run& run, const std::string& folder) {
       const double t = c.column[kShear][k], n = c.column[kNormal][k];
       ratio.push_back(t / n);
       csv.row({c.target, c.column[kTime][k], c.column[kTravel][k], t, t / area, n / area, t / n,
-               c.column[kDilation][k]});
+               c.column[kDilation][k], c.column[kPorosity][k]});
     }
     if (!c.whole) continue;
     int which = 0;
@@ -139,6 +142,7 @@ std::vector<Strength> direct_shear(const Run& run, const std::string& folder) {
       Strength s;
       s.state = p.state, s.stress = c.target, s.ratio = t / n;
       s.angle.value = std::atan(t / n);
+      s.porosity = c.column[kPorosity].front();
       s.position = mean(c.column[kTravel], p), s.at_end = ends(p, c.rows());
       s.held = furthest(c.column[kNormal], c.target * area);
       found.push_back(s);
@@ -154,12 +158,12 @@ std::vector<Strength> direct_shear(const Run& run, const std::string& folder) {
 }
 
 std::vector<Strength> triaxial(const Run& run, const std::string& folder) {
-  enum { kTime, kStrain, kAxial, kSideX, kSideY, kVolume, kColumns };
+  enum { kTime, kStrain, kAxial, kSideX, kSideY, kVolume, kPorosity, kColumns };
   std::vector<Strength> found;
-  CsvWriter csv(
-      folder + "/triaxial.csv",
-      {"stress_Pa", "time_s", "axial_strain", "sigma1_Pa", "sigma3_Pa", "sigma3_x_Pa",
-       "sigma3_y_Pa", "deviator_Pa", "mean_stress_Pa", "volumetric_strain", "mobilised_angle_deg"});
+  CsvWriter csv(folder + "/triaxial.csv",
+                {"stress_Pa", "time_s", "axial_strain", "sigma1_Pa", "sigma3_Pa", "sigma3_x_Pa",
+                 "sigma3_y_Pa", "deviator_Pa", "mean_stress_Pa", "volumetric_strain",
+                 "mobilised_angle_deg", "porosity"});
   std::vector<double> major[2], minor[2];
   for (const Curve& c : curves_of(run, kColumns)) {
     if (c.rows() == 0) continue;
@@ -169,7 +173,8 @@ std::vector<Strength> triaxial(const Run& run, const std::string& folder) {
       const double sx = c.column[kSideX][k], sy = c.column[kSideY][k], s3 = (sx + sy) / 2;
       least.push_back(s3), ratio.push_back((s1 - s3) / (s1 + s3));
       csv.row({c.target, c.column[kTime][k], c.column[kStrain][k], s1, s3, sx, sy, s1 - s3,
-               (s1 + 2 * s3) / 3, c.column[kVolume][k], principal_angle(s1, s3) / kDegree});
+               (s1 + 2 * s3) / 3, c.column[kVolume][k], principal_angle(s1, s3) / kDegree,
+               c.column[kPorosity][k]});
     }
     if (!c.whole) continue;
     int which = 0;
@@ -180,6 +185,7 @@ std::vector<Strength> triaxial(const Run& run, const std::string& folder) {
       Strength s;
       s.state = p.state, s.stress = c.target, s.ratio = (s1 - s3) / (s1 + s3);
       s.angle.value = principal_angle(s1, s3);
+      s.porosity = c.column[kPorosity].front();
       s.position = mean(c.column[kStrain], p), s.at_end = ends(p, c.rows());
       s.held = std::max(furthest(c.column[kSideX], c.target), furthest(c.column[kSideY], c.target));
       found.push_back(s);

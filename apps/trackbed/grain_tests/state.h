@@ -18,6 +18,7 @@ struct GrainTestState {
   int steps = 0;                          ///< in that sum
   int rows_done = 0;                      ///< of this specimen
   std::vector<double> rows;               ///< of all specimens, one after the other
+  double solid = 0;                       ///< volume of all grains [m3]
   double size = 0;                        ///< mean grain size by mass [m]
 };
 

@@ -88,10 +88,11 @@ Stage compression(const Scene& s, double stress) {
     confine(run, p, kSides, kBottom);
     const Vec3 l = lengths(run), l0 = run.test.lengths;
     const double axial = 1 - l.z() / l0.z(), volumetric = 1 - l.prod() / l0.prod();
-    const bool last = add_to_row(run,
-                                 {run.world.time, axial, (p[kBottom] + p[kTopWall]) / 2,
-                                  (p[0] + p[1]) / 2, (p[2] + p[3]) / 2, volumetric},
-                                 axial / run.scene.test.largest_strain);
+    const bool last =
+        add_to_row(run,
+                   {run.world.time, axial, (p[kBottom] + p[kTopWall]) / 2, (p[0] + p[1]) / 2,
+                    (p[2] + p[3]) / 2, volumetric, 1 - run.test.solid / l.prod()},
+                   axial / run.scene.test.largest_strain);
     if (last) ++run.test.specimen;
     return last;
   };

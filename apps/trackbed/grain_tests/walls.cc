@@ -51,6 +51,9 @@ void begin_specimen(Run& run) {
   t.placed.clear(), t.drift.clear(), t.sum.clear();
   t.steps = t.rows_done = 0;
   t.size = mean_size(run);
+  t.solid = 0;
+  for (int i = 0; i < run.world.bodies.grains; ++i)
+    t.solid += run.world.shapes.shape(run.world.bodies.shape[i]).volume;
   t.low = run.layout.low, t.high = run.layout.high;
 }
 

@@ -75,7 +75,7 @@ void visit(A& a, GrainTestState& t) {
   a("test/space", space);
   if (space.size() != 3) throw InputError("checkpoint: 'test/space' has another length");
   t.low = space[0], t.high = space[1], t.lengths = space[2];
-  a("test/plane", t.plane), a("test/size", t.size);
+  a("test/plane", t.plane), a("test/solid", t.solid), a("test/size", t.size);
   a("test/drift", t.drift), a("test/sum", t.sum), a("test/rows", t.rows);
   a("test/steps", t.steps), a("test/rows_done", t.rows_done);
 }
