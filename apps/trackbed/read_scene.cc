@@ -315,8 +315,8 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   scene.output = output(values);
   decide(scene);
   check_scene(scene, values);
-  check_packing(scene, values);
   check_grain_test(scene, values);
+  check_packing(scene, values);
   check_structures(scene, values);
   decide_inertia(scene, values);
   return scene;

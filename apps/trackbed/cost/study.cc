@@ -96,6 +96,9 @@ Study make_study(const std::string& file, const std::vector<std::string>& set,
                  const std::vector<std::string>& knobs, const std::vector<std::string>& pairs,
                  bool effects, int seeds, const std::string& folder) {
   const Scene scene = read_scene(file, set);
+  if (scene.test.on())
+    throw InputError(file + ": Test/Type = " + scene.test.type +
+                     ": cost compares what load cycles do; it needs Test/Type = none");
   Study study{file,  folder,
               set,   scene.grains.seed,
               seeds, effects ? effect_knobs(scene) : chosen_knobs(knobs, scene),
