@@ -22,7 +22,8 @@ struct Measured {
 };
 
 /// What of a setting a case depends on.
-enum class Over { flat_shapes, shapes, schedules };
+/// `all_shapes`: polyhedra under the pair laws and round grains under theirs.
+enum class Over { flat_shapes, shapes, round_shapes, all_shapes, schedules };
 
 struct Case {
   std::string name, must, unit, damping;
@@ -34,6 +35,7 @@ struct Case {
 
 const std::vector<Case>& impact_cases();
 const std::vector<Case>& rest_cases();
+const std::vector<Case>& round_cases();
 const std::vector<Case>& step_cases();
 const std::vector<Case>& coupled_cases();
 

@@ -1,8 +1,7 @@
 // Impacts and starts that break codes. No damping, no gravity.
 #include "base/error.h"
 #include "dem/motion/monitor.h"
-#include "hard_case.h"
-#include "motion_scene.h"
+#include "grain_scene.h"
 
 namespace trackbed::hard {
 namespace {
@@ -14,19 +13,22 @@ using dem::Vec3;
 constexpr double kSize = .1, kModulus = 1e8;
 
 int add(Scene& s, const std::string& shape, double size, double rho, const Vec3& x, const Quat& q) {
-  const dem::GrainShape g = dem::make_grain_shape(solid(shape, size));
+  const dem::GrainShape g = grain(shape, size);
   return dem::add_grain(s.bodies, s.shapes, s.shapes.add(g), 0, rho, x, q * g.turn);
 }
 
 // Just above the floor, turned, thrown at it.
 Scene thrown(const Setting& set, double scale, double mu, const Vec3& v) {
-  Scene s(kModulus, mu, set.law);
+  Scene s = scene_of(set, kModulus, mu, scale * kSize);
   s.context.gravity.setZero();
   const Quat turned = dem::turn_about({1, 2, .5}, .9);
   const int body = add(s, set.shape, scale * kSize, 2600, Vec3::Zero(), turned);
   double low = 0;
-  for (const Vec3& p : s.shapes.shape(s.bodies.shape[body]).body.vertices)
-    low = std::min(low, (s.bodies.R[body] * p).z());
+  const dem::GrainShape& g = s.shapes.shape(s.bodies.shape[body]);
+  if (is_round(set))
+    low = -g.radius;
+  else
+    for (const Vec3& p : g.body.vertices) low = std::min(low, (s.bodies.R[body] * p).z());
   s.bodies.x[body].z() = -low + 1e-3 * scale * kSize;
   s.add_floor(20 * scale * kSize, 5 * scale * kSize);
   s.bodies.v[body] = v;
@@ -74,14 +76,28 @@ Vec3 end_of(const Scene& s, int body, double sign) {
   return sum / count;
 }
 
+// The second on top of the first, overlapping by a tenth of their height or, if round, diameter.
 Measured overlapping_start(const Setting& set) {
-  Scene s(kModulus, .5, set.law);
-  if (!s.forces.stores_energy) return {NAN, 1e-3, false};
+  Scene s = scene_of(set, kModulus, .5, kSize);
+  if (!is_round(set) && !s.forces.stores_energy) return {NAN, 1e-3, false};
   s.context.gravity.setZero();
   add(s, set.shape, kSize, 2600, Vec3::Zero(), Quat::Identity());
   const int b = add(s, set.shape, kSize, 2600, Vec3::Zero(), dem::turn_about({0, 0, 1}, .3));
-  const Vec3 top = end_of(s, 0, 1), bottom = end_of(s, b, -1);
-  s.bodies.x[b] = top - bottom - Vec3(0, 0, .1 * (top.z() - bottom.z()));
+  if (is_round(set)) {
+    const double diameter = 2 * s.shapes.shape(s.bodies.shape[b]).radius;
+    s.bodies.x[b] = {0, 0, diameter};
+    for (int k = 0; k < 200; ++k) {  // down until they do
+      s.bodies.x[b].z() -= .01 * diameter;
+      std::fill(s.pairs.wake.begin(), s.pairs.wake.end(), 0.0);  // moved by hand, not by a step
+      s.prepare();
+      if (count_contacts(s.pairs) > 0) break;
+    }
+    s.bodies.x[b].z() -= .1 * kSize;
+    std::fill(s.pairs.wake.begin(), s.pairs.wake.end(), 0.0);
+  } else {
+    const Vec3 top = end_of(s, 0, 1), bottom = end_of(s, b, -1);
+    s.bodies.x[b] = top - bottom - Vec3(0, 0, .1 * (top.z() - bottom.z()));
+  }
   s.prepare();
   s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
   const double stored = s.start.normal;
@@ -92,11 +108,14 @@ Measured overlapping_start(const Setting& set) {
 
 // 4 mm thin, 30 m/s: stopped, or the run is refused. 1 if it came out on the other side unseen.
 Measured tunnelling(const Setting& set) {
-  Scene s(kModulus, .5, set.law);
+  if (set.shape == "tetrahedron" || set.shape == "voronoi") return {NAN, 0, false};  // not so thin
+  const double thickness = .004;
+  Scene s = scene_of(set, kModulus, .5, thickness);
   s.context.gravity.setZero();
-  const double thickness = .004, scale = set.shape == "plate"  ? .04
-                                         : set.shape == "cube" ? .004
-                                                               : .08;
+  const double scale = is_round(set)          ? .004
+                       : set.shape == "plate" ? .04
+                       : set.shape == "cube"  ? .004
+                                              : .08;
   add(s, set.shape, scale, 2600, {0, 0, thickness}, Quat::Identity());
   dem::add_box(s.bodies, s.shapes, {-1, -1, -thickness}, {1, 1, 0}, 0, 1, dem::kFixed);
   s.bodies.v[0].z() = -30;
@@ -127,10 +146,11 @@ Measured lengths(const Setting& set) {
 
 // Masses 1:10^4, the chip between a heavy grain and the floor.
 Measured mass_ratio(const Setting& set) {
-  Scene s(5e10, .5, set.law);
-  s.context.gravity.setZero();
   const double small = .01, large = small * std::cbrt(1e4);
+  Scene s = scene_of(set, 5e10, .5, small);
+  s.context.gravity.setZero();
   const auto height = [&](double size) {
+    if (is_round(set)) return size;
     double low = 0, high = 0;
     for (const Vec3& p : solid(set.shape, size).vertices)
       low = std::min(low, p.z()), high = std::max(high, p.z());
@@ -177,17 +197,17 @@ Measured stiffness_ratio(const Setting& set) {
 const std::vector<Case>& impact_cases() {
   static const std::vector<Case> cases{
       {"grazing impact, 0 to 89 degrees, friction 0 to 2", "no kinetic energy is gained",
-       "share of the energy before", "none", Over::shapes, true, false, grazing},
+       "share of the energy before", "none", Over::all_shapes, true, false, grazing},
       {"overlapping start", "leaves with no more than was stored", "excess over stored energy",
-       "none", Over::shapes, true, false, overlapping_start},
+       "none", Over::all_shapes, true, false, overlapping_start},
       {"tunnelling: 4 mm at 30 m/s", "met, or the run is refused", "1 = passed unseen", "none",
-       Over::flat_shapes, true, false, tunnelling},
+       Over::all_shapes, true, false, tunnelling},
       {"lengths times 1e-9 to 1e6", "the same dimensionless motion", "relative difference", "none",
-       Over::shapes, false, false, lengths},
+       Over::all_shapes, false, false, lengths},
       {"mass 1:10^4", "the chip's penetration stays small", "share of its height", "none",
-       Over::flat_shapes, true, false, mass_ratio},
+       Over::all_shapes, true, false, mass_ratio},
       {"stiffness 1:10^6", "no kinetic energy is gained", "share of the energy before", "none",
-       Over::shapes, true, false, stiffness_ratio}};
+       Over::all_shapes, true, false, stiffness_ratio}};
   return cases;
 }
 

@@ -1,4 +1,5 @@
 #include "dem/contact/pair_forces.h"
+#include "dem/contact/round_forces.h"
 #include "dem/grain/voronoi.h"
 #include "hard_case.h"
 
@@ -21,7 +22,8 @@ dem::Polyhedron solid(const std::string& name, double size) {
 
 std::vector<Case> all_cases() {
   std::vector<Case> all;
-  for (const auto& list : {impact_cases(), rest_cases(), step_cases(), coupled_cases()})
+  for (const auto& list :
+       {impact_cases(), rest_cases(), round_cases(), step_cases(), coupled_cases()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }
@@ -40,11 +42,17 @@ std::vector<Setting> settings(const Case& c) {
     }
     return list;
   }
-  std::vector<std::string> shapes{"cube", "plate", "needle"};
-  if (c.over == Over::shapes) shapes.insert(shapes.end(), {"tetrahedron", "voronoi"});
+  std::vector<std::string> shapes;
+  if (c.over != Over::round_shapes) shapes = {"cube", "plate", "needle"};
+  if (c.over == Over::shapes || c.over == Over::all_shapes)
+    shapes.insert(shapes.end(), {"tetrahedron", "voronoi"});
   for (const auto& shape : shapes)
     for (const auto& law : dem::pair_law_names())
       for (const double share : shares) list.push_back({shape, law, share, "", 1});
+  if (c.over == Over::round_shapes || c.over == Over::all_shapes)
+    for (const char* shape : {"sphere", "clump", "dilated"})
+      for (const auto& law : dem::round_law_names())
+        for (const double share : shares) list.push_back({shape, law, share, "", 1});
   return list;
 }
 

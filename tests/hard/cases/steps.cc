@@ -1,7 +1,6 @@
 // The step itself: critical steps, momentum, energy, threads, a quiet pile.
 #include "dem/grain/random.h"
-#include "hard_case.h"
-#include "motion_scene.h"
+#include "grain_scene.h"
 
 namespace trackbed::hard {
 namespace {
@@ -54,10 +53,10 @@ Measured above_critical(const Setting& set) {
 
 // Grains flying at each other, 3 x 3 x 3.
 Scene cloud(const Setting& set, double mu) {
-  Scene s(kModulus, mu, set.law);
+  Scene s = scene_of(set, kModulus, mu, kSize);
   s.context.gravity.setZero();
   dem::Random random(3);
-  const dem::GrainShape g = dem::make_grain_shape(solid(set.shape, kSize));
+  const dem::GrainShape g = grain(set.shape, kSize);
   const int shape = s.shapes.add(g);
   for (int k = 0; k < 27; ++k) {
     const Vec3 at(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
@@ -128,11 +127,11 @@ const std::vector<Case>& step_cases() {
       {"step 1.1 of critical", "the monitor's limit is below it", "1 = unseen", "none",
        Over::flat_shapes, false, false, above_critical},
       {"cloud of 27 grains: momentum", "kept without outer load", "share of all momenta", "none",
-       Over::shapes, true, false, momentum},
+       Over::all_shapes, true, false, momentum},
       {"cloud of 27 grains: ledger", "closes with friction", "share of the energy", "none",
-       Over::shapes, true, false, ledger},
-      {"cloud of 27 grains: threads 1, 2, 8", "bitwise the same", "m", "none", Over::shapes, false,
-       false, threads},
+       Over::all_shapes, true, false, ledger},
+      {"cloud of 27 grains: threads 1, 2, 8", "bitwise the same", "m", "none", Over::all_shapes,
+       false, false, threads},
       {"quiet pile, 10^6 steps", "does not creep", "heights of a block a second", "local, 0.5",
        Over::flat_shapes, false, true, quiet_pile}};
   return cases;
