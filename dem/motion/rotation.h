@@ -57,9 +57,11 @@ void turn_about_axis(double angle, Quat& q, Vec3& l) {
 
 /// Rotation over h [s] from the identity, body axes: R1(h/2) R2(h/2) R3(h) R2(h/2) R1(h/2).
 /// `l`: angular momentum in body (principal) axes [kg m2/s], `inertia` principal moments. Where
-/// these are all the same (spheres) it is one turn about l.
+/// these are all the same (spheres, cubes) it is one turn about l; the same to rounding, or a cube
+/// would turn otherwise when it is scaled.
 inline Quat free_rotation(double h, const Vec3& inertia, Vec3 l) {
-  if (inertia[0] == inertia[1] && inertia[1] == inertia[2])
+  const double same = 1e-12 * inertia[0];
+  if (std::abs(inertia[1] - inertia[0]) <= same && std::abs(inertia[2] - inertia[0]) <= same)
     return from_rotation_vector(h / inertia[0] * l);
   Quat q = Quat::Identity();
   turn_about_axis<0>(h / 2 * l[0] / inertia[0], q, l);
