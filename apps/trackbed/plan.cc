@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/trackbed/csv.h"
 #include "apps/trackbed/effects.h"
 #include "apps/trackbed/grain_estimate.h"
 #include "apps/trackbed/simulation/grains.h"
@@ -13,6 +14,7 @@
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/simulation/zones.h"
+#include "base/error.h"
 #include "coupling/edit.h"
 #include "dem/grain/library.h"
 #include "dem/motion/time_step.h"
@@ -79,14 +81,33 @@ coupling::World sample_of_smallest(const Scene& scene, double size) {
   return world;
 }
 
+std::string millimetres(double length) { return shortest(std::round(1000 * length)) + " mm"; }
+
+/// A run would refuse it only once the bed is packed. Half of the sample's shapes are longer than
+/// its median, so what is refused here is refused there.
+void check_seam(const Layout& layout, const coupling::World& sample, double enlarged) {
+  const double period = layout.period.y();
+  if (period == 0) return;
+  std::vector<double> width;
+  for (int i = 0; i < sample.bodies.grains; ++i)
+    width.push_back(2 * enlarged * sample.shapes.shape(sample.bodies.shape[i]).radius);
+  std::nth_element(width.begin(), width.begin() + width.size() / 2, width.end());
+  const double typical = width[width.size() / 2];
+  if (period < 3 * typical)
+    throw InputError("Container/Periodic along track: the period of " + millimetres(period) +
+                     " is less than three grains of the largest class (" + millimetres(typical) +
+                     " each)");
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, int threads) {
   Plan plan{};
-  double least = 1e300;
+  double least = 1e300, largest = 0;
   for (const auto& k : gradation_classes(scene)) {
     plan.grains += k.grains;
     least = std::min(least, k.lower);
+    largest = std::max(largest, 0.5 * (k.lower + k.upper));
   }
   const Layout layout = make_layout(scene);
   plan.fill_grains = plan.grains * layout.fill_mass / layout.bed_mass;
@@ -101,6 +122,7 @@ Plan make_plan(const Scene& scene, int threads) {
   const auto loading = loading_stages(scene);
   stages.insert(stages.end(), loading.begin(), loading.end());
   coupling::World sample = sample_of_smallest(scene, least);
+  check_seam(layout, sample, largest / least);
   const double given = scene.numerics.time_step;
   for (const auto& stage : stages) {
     if (stage.longest <= 0) continue;
