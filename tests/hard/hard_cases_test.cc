@@ -1,10 +1,14 @@
 // Every hard case at its first setting; the command hard_cases runs all settings.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "cases/hard_case.h"
 
 namespace trackbed::hard {
 namespace {
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }  // in ctest's names
 
 class HardCase : public testing::TestWithParam<Case> {};
 

@@ -85,7 +85,9 @@ TEST(Impact, laws_by_name) {
     EXPECT_TRUE(touch) << law;
     EXPECT_TRUE(s.bodies.v[0].allFinite()) << law;
     EXPECT_GT(s.bodies.v[0].z(), -2) << law;
-    if (s.forces.stores_energy) EXPECT_LT(std::abs(s.closure()), 1e-3 * s.start.kinetic) << law;
+    if (s.forces.stores_energy) {
+      EXPECT_LT(std::abs(s.closure()), 1e-3 * s.start.kinetic) << law;
+    }
     std::printf("%-16s energy from nowhere / kinetic energy before: %.2e\n", law.c_str(),
                 s.closure() / s.start.kinetic);
   }

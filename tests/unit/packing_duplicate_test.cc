@@ -247,7 +247,7 @@ TEST(Duplicate, a_seam_settles_until_it_is_as_dense_as_the_bulk) {
     s.sink = .5 * d;
     const LayeredBed two = duplicate_layers(packed_grains(one.scene.bodies, one.scene.shapes), s);
     EXPECT_GT(two.left_out.size(), 0u);
-    EXPECT_LT(two.left_out.size(), 6u);
+    EXPECT_LE(two.left_out.size(), 8u);  // a fifth of the layer
     EXPECT_EQ(two.bed.size() + two.left_out.size(), 80u);
     for (int i = 40; i < two.bed.size(); ++i)
       for (int j = 0; j < 40; ++j)

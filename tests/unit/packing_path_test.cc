@@ -168,14 +168,14 @@ TEST(FrictionPath, grains_become_denser_as_friction_falls_and_the_search_finds_w
   FrictionPathSettings s;
   s.friction = {0.8, 0.3, 0};
   s.relative_density = 0.5;
-  s.tolerance = 2e-3;
+  s.tolerance = 1e-2;  // forty grains move in jumps
   std::vector<RealBed> kept{RealBed(0.8)};
   std::vector<FrictionPoint> points{{-1, 0.8, kept[0].porosity(), 0}};
   for (;;) {
     const FrictionStep step = next_step(s, points);
     if (step.done) {
       const double wanted = porosity_at(0.5, points[0].porosity, points[2].porosity);
-      EXPECT_NEAR(points[step.point].porosity, wanted, 2e-3);
+      EXPECT_NEAR(points[step.point].porosity, wanted, s.tolerance);
       break;
     }
     RealBed bed = kept[step.point];
