@@ -6,9 +6,11 @@
 #include "cases/hard_case.h"
 
 namespace trackbed::hard {
-namespace {
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }  // in ctest's names
+// In ctest's names.
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+namespace {
 
 class HardCase : public testing::TestWithParam<Case> {};
 
