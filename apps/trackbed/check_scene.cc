@@ -154,8 +154,6 @@ void check_sleeper(const Check& c) {
         }))
       c.refuse("Sleeper/Seats", "Container/Half by symmetry cuts one seat of several in two");
   }
-  if (s.reduction != "none" && s.model != "elastic")
-    c.refuse("Sleeper/Reduction", "holds for Sleeper/Model = elastic only");
   if (s.model == "elastic" && s.reduction == "none" && c.scene.numerics.scheme == "static")
     c.refuse("Numerics/Structure scheme",
              "a sleeper on grains is not held, so a static answer does not exist; Sleeper/Model = "
