@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/contact/ball_features.h"
+
 namespace trackbed::dem {
 namespace {
 
@@ -212,6 +214,8 @@ DeepestBalls deepest_balls(const PartView& a, const Mat3& Ra, const PartView& b,
   d.ra = radius_at(a, x);
   d.rb = radius_at(b, R.transpose() * (y - centre));
   d.overlap = d.ra + d.rb - (d.y - d.x).norm();
+  d.on_a = feature_of(a.core, ca, x).code();
+  d.on_b = feature_of(b.core, cb, R.transpose() * (y - centre)).code();
   return d;
 }
 

@@ -27,6 +27,8 @@ struct DeepestBalls {
   double ra, rb;   ///< radii there [m]
   Vec3 n;          ///< unit, from x to y
   double overlap;  ///< delta [m], negative: apart by that
+  /// Where x and y lie on their cores (CoreFeature::code), 0 = not known.
+  int on_a = 0, on_b = 0;
 };
 
 /// A point and a polyhedron, plain or dilated. `centre` is the point, radius r; `pose` of b, its

@@ -1,7 +1,7 @@
 // The loops over pairs of balls, spheres on polyhedra, dilated polyhedra, for one law, with or
 // without friction. Included by the file that makes the instances, nowhere else.
 #pragma once
-#include "dem/contact/deepest_balls.h"
+#include "dem/contact/ball_features.h"
 #include "dem/contact/release.h"
 #include "dem/contact/round_forces.h"
 #include "dem/contact/round_response.h"
@@ -47,8 +47,15 @@ struct CoresGeometry {
   static constexpr PairKind kind = PairKind::cores;
   static DeepestBalls find(const Bodies& bodies, const PartView& a, const PartView& b,
                            const Vec3& apart, Pairs& pairs, int p) {
-    return deepest_balls(a, bodies.R[pairs.a[p]], b, {bodies.R[pairs.b[p]], apart}, pairs.arm_a[p],
-                         pairs.axis[p]);
+    const Mat3& Ra = bodies.R[pairs.a[p]];
+    const Pose pose{bodies.R[pairs.b[p]], apart};
+    DeepestBalls balls;
+    if (deepest_balls_again(a, Ra, b, pose, CoreFeature::of(pairs.faces_a[p]),
+                            CoreFeature::of(pairs.faces_b[p]), balls))
+      return balls;
+    balls = deepest_balls(a, Ra, b, pose, pairs.arm_a[p], pairs.axis[p]);
+    pairs.faces_a[p] = balls.on_a, pairs.faces_b[p] = balls.on_b;
+    return balls;
   }
 };
 
