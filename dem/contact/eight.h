@@ -1,6 +1,7 @@
 // Eight doubles at a time: one 512-bit register or two of 256 bits where the processor has them,
 // else plain loops.
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #ifdef __AVX2__
@@ -21,13 +22,20 @@ struct Eight {
   __m512d v;
   Eight() = default;
   Eight(__m512d value) : v(value) {}
-  explicit Eight(double s) : v(_mm512_set1_pd(s)) {}
+  Eight(double s) : v(_mm512_set1_pd(s)) {}
   static Eight load(const double* p) { return _mm512_loadu_pd(p); }
   void store(double* p) const { _mm512_storeu_pd(p, v); }
   friend Eight operator+(Eight a, Eight b) { return _mm512_add_pd(a.v, b.v); }
   friend Eight operator-(Eight a, Eight b) { return _mm512_sub_pd(a.v, b.v); }
   friend Eight operator*(Eight a, Eight b) { return _mm512_mul_pd(a.v, b.v); }
+  friend Eight operator/(Eight a, Eight b) { return _mm512_div_pd(a.v, b.v); }
 };
+inline Eight sqrt(Eight a) { return _mm512_sqrt_pd(a.v); }
+inline Eight abs(Eight a) { return _mm512_abs_pd(a.v); }
+/// a[k] < b[k] ? yes[k] : no[k].
+inline Eight where_less(Eight a, Eight b, Eight yes, Eight no) {
+  return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ), no.v, yes.v);
+}
 inline Eight fma(Eight a, Eight b, Eight c) { return _mm512_fmadd_pd(a.v, b.v, c.v); }
 inline Eight max(Eight a, Eight b) { return _mm512_max_pd(a.v, b.v); }
 inline Eight min(Eight a, Eight b) { return _mm512_min_pd(a.v, b.v); }
@@ -55,13 +63,23 @@ struct Eight {
   __m256d low, high;
   Eight() = default;
   Eight(__m256d l, __m256d h) : low(l), high(h) {}
-  explicit Eight(double s) : low(_mm256_set1_pd(s)), high(low) {}
+  Eight(double s) : low(_mm256_set1_pd(s)), high(low) {}
   static Eight load(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)}; }
   void store(double* p) const { _mm256_storeu_pd(p, low), _mm256_storeu_pd(p + 4, high); }
   friend Eight operator+(Eight a, Eight b) { return {a.low + b.low, a.high + b.high}; }
   friend Eight operator-(Eight a, Eight b) { return {a.low - b.low, a.high - b.high}; }
   friend Eight operator*(Eight a, Eight b) { return {a.low * b.low, a.high * b.high}; }
+  friend Eight operator/(Eight a, Eight b) { return {a.low / b.low, a.high / b.high}; }
 };
+inline Eight sqrt(Eight a) { return {_mm256_sqrt_pd(a.low), _mm256_sqrt_pd(a.high)}; }
+inline Eight abs(Eight a) {
+  const __m256d sign = _mm256_set1_pd(-0.);
+  return {_mm256_andnot_pd(sign, a.low), _mm256_andnot_pd(sign, a.high)};
+}
+inline Eight where_less(Eight a, Eight b, Eight yes, Eight no) {
+  return {_mm256_blendv_pd(no.low, yes.low, _mm256_cmp_pd(a.low, b.low, _CMP_LT_OQ)),
+          _mm256_blendv_pd(no.high, yes.high, _mm256_cmp_pd(a.high, b.high, _CMP_LT_OQ))};
+}
 inline Eight fma(Eight a, Eight b, Eight c) { return a * b + c; }
 inline Eight max(Eight a, Eight b) {
   return {_mm256_max_pd(a.low, b.low), _mm256_max_pd(a.high, b.high)};
@@ -109,7 +127,7 @@ inline Eight pick(Eight a, const Places& p) {
 struct Eight {
   double v[8];
   Eight() = default;
-  explicit Eight(double s) {
+  Eight(double s) {
     for (double& x : v) x = s;
   }
   static Eight load(const double* p) {
@@ -132,7 +150,23 @@ struct Eight {
     for (int k = 0; k < 8; ++k) a.v[k] *= b.v[k];
     return a;
   }
+  friend Eight operator/(Eight a, Eight b) {
+    for (int k = 0; k < 8; ++k) a.v[k] /= b.v[k];
+    return a;
+  }
 };
+inline Eight sqrt(Eight a) {
+  for (double& x : a.v) x = std::sqrt(x);
+  return a;
+}
+inline Eight abs(Eight a) {
+  for (double& x : a.v) x = std::abs(x);
+  return a;
+}
+inline Eight where_less(Eight a, Eight b, Eight yes, Eight no) {
+  for (int k = 0; k < 8; ++k) no.v[k] = a.v[k] < b.v[k] ? yes.v[k] : no.v[k];
+  return no;
+}
 inline Eight fma(Eight a, Eight b, Eight c) { return a * b + c; }
 inline Eight max(Eight a, Eight b) {
   for (int k = 0; k < 8; ++k) a.v[k] = a.v[k] > b.v[k] ? a.v[k] : b.v[k];
@@ -178,5 +212,24 @@ inline Eight pick(Eight a, const Places& p) {
 }
 
 #endif
+
+// What formulas written once for one number and for eight need besides.
+inline double where_less(double a, double b, double yes, double no) { return a < b ? yes : no; }
+inline bool all_less(double a, double b) { return a < b; }
+inline bool all_less(Eight a, Eight b) { return less(a, b) == 0xff; }
+inline bool any_less(double a, double b) { return a < b; }
+inline bool any_less(Eight a, Eight b) { return less(a, b) != 0; }
+/// f of one number, of each of eight.
+template <class F>
+double each(double a, F&& f) {
+  return f(a);
+}
+template <class F>
+Eight each(Eight a, F&& f) {
+  double x[8];
+  a.store(x);
+  for (double& v : x) v = f(v);
+  return Eight::load(x);
+}
 
 }  // namespace trackbed::dem

@@ -27,7 +27,7 @@ FrictionResult torsion(double share, const Bodies& b, const PairMaterials& mater
   // One component: a spring in a plane of its own.
   Vec3 moment(pairs.torsion[p], 0, 0);
   const FrictionResult r =
-      advance_friction(share * m.friction * radius, k, Vec3::UnitZ(), pairs.normal_force[p].norm(),
+      advance_friction(share * m.friction * radius, k, Vec3(0, 0, 1), pairs.normal_force[p].norm(),
                        {Vec3(n.dot(turn), 0, 0), Vec3::Zero()}, moment, pairs.torsion_stiffness[p]);
   pairs.torsion[p] = moment.x();
   pairs.couple[p] += moment.x() * n;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dem/motion/free_bodies.h"
 #include "dem/motion/ordered_sum.h"
 #include "dem/motion/rotation.h"
 
@@ -64,9 +65,14 @@ void move(Bodies& b, int i, double dt) {
   b.x[i] += dt * b.v[i];
   const int turns = b.freedom[i] & kTurnAll;
   if (turns == kTurnAll) {
-    const Quat step = free_rotation(dt, b.inertia[i], b.R[i].transpose() * b.L[i]);
-    b.turn[i] = b.R[i] * rotation_vector(step);
-    b.q[i] = (b.q[i] * step).normalized();
+    const Vec3 l = b.R[i].transpose() * b.L[i], &inertia = b.inertia[i];
+    const double moments[3] = {inertia[0], inertia[1], inertia[2]},
+                 momentum[3] = {l[0], l[1], l[2]};
+    double step[4];
+    free_rotation(dt, moments, momentum, step);
+    const Quat turn(step[3], step[0], step[1], step[2]);
+    b.turn[i] = b.R[i] * rotation_vector(turn);
+    b.q[i] = (b.q[i] * turn).normalized();
   } else {
     if (turns != 0) update_omega(b, i);
     b.turn[i] = dt * b.omega[i];
@@ -77,19 +83,42 @@ void move(Bodies& b, int i, double dt) {
   update_omega(b, i);
 }
 
-template <bool damped>
-StepWork drift_all(Bodies& b, const StepContext& c) {
-  return ordered_sum<StepWork>(b.size(), c.threads, [&](int i) {
-    const StepWork w = half_kick<damped, false>(b, i, c);
-    move(b, i, c.dt);
+// All bodies by eights; `free` for those of them that move freely, `held` for each other one.
+template <class Free, class Held>
+StepWork each_eight(Bodies& b, const StepContext& c, Free&& free, Held&& held) {
+  const int n = b.size();
+  return ordered_sum<StepWork>((n + 7) / 8, c.threads, [&](int row) {
+    StepWork w;
+    Eightfold e;
+    for (int i = 8 * row; i < std::min(n, 8 * row + 8); ++i) {
+      if (b.freedom[i] == kFree)
+        e.add(i);
+      else
+        w += held(i);
+    }
+    if (e.count == 0) return w;
+    e.complete();
+    w += free(e);
     return w;
   });
 }
 
 template <bool damped>
+StepWork drift_all(Bodies& b, const StepContext& c) {
+  return each_eight(
+      b, c, [&](const Eightfold& e) { return drift_free<damped>(b, e, c); },
+      [&](int i) {
+        const StepWork w = half_kick<damped, false>(b, i, c);
+        move(b, i, c.dt);
+        return w;
+      });
+}
+
+template <bool damped>
 StepWork kick_all(Bodies& b, const StepContext& c) {
-  return ordered_sum<StepWork>(b.size(), c.threads,
-                               [&](int i) { return half_kick<damped, true>(b, i, c); });
+  return each_eight(
+      b, c, [&](const Eightfold& e) { return kick_free<damped>(b, e, c); },
+      [&](int i) { return half_kick<damped, true>(b, i, c); });
 }
 
 }  // namespace

@@ -139,7 +139,8 @@ bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMater
     slip = contact_slip(c.dt, b.v[g], b.turn[g], old_arm, arm, velocity, zero, zero, zero);
   const double way = best.n.dot(slip.displacement);
   const PairMaterial& material = materials(b.material[g], patch.material);
-  const BallContact contact{best.overlap, part.radius, c.dt > 0 ? way / c.dt : 0, b.mass[g], c.dt};
+  const BallContactOf<double> contact{best.overlap, part.radius, c.dt > 0 ? way / c.dt : 0,
+                                      b.mass[g], c.dt};
   const double force = respond<Law, friction>(material, contact, best.n, slip, k, i);
   for (int j = 0; j < 3; ++j) nodal.push_back({nodes[j], -best.weight[j] * k.force[i]});
   k.arm[i] = arm;

@@ -1,7 +1,8 @@
 // Cost of one step of a bed by shape of its grains, everything included: spheres, clumps of 8,
 // dilated polyhedra, and half of them polyhedra. Loose grains fall into a box and settle; then per
 // touching pair of parts, per near pair, per grain and step, on one thread and on two.
-//   shapes_benchmark [grains (1000)] [steps timed (1000)] [folder]
+//   shapes_benchmark [grains (1000)] [steps timed (1000)] [folder or ""] [only this shape or ""]
+//                    [threads (2)]
 // In the folder it leaves each bed (bed_file.h) and shapes.csv, for peers.py.
 #include <cstdio>
 #include <cstdlib>
@@ -88,35 +89,69 @@ Scene settled(const std::vector<GrainShape>& shapes, int grains) {
   return s;
 }
 
-// Also returns the time per touching pair and step [s].
-double time_steps(Scene s, int threads, int steps) {
+// Time of the whole step [s]; the clock is read at both ends only.
+double time_whole(Scene s, int threads, int steps) {
+  s.context.threads = threads;
+  const double start = now(threads);
+  for (int k = 0; k < steps; ++k) s.step();
+  return (now(threads) - start) / steps;
+}
+
+// Stages of a step, as shares of it.
+void print_stages(Scene s, int threads, int steps) {
   s.context.threads = threads;
   double motion = 0, search = 0, pairs = 0, sums = 0, ledger = 0;
-  long touched = 0, near = 0;
   for (int k = 0; k < steps; ++k) {
     double t = now(threads);
+    const auto lap = [&] {
+      const double before = t;
+      t = now(threads);
+      return t - before;
+    };
     StepWork work = drift(s.bodies, s.context);
-    motion += now(threads) - t, t = now(threads);
+    motion += lap();
     s.candidates.update(s.bodies, s.shapes, s.context, s.pairs);
-    search += now(threads) - t, t = now(threads);
+    search += lap();
     s.evaluate_pairs(s.context.dt);
-    pairs += now(threads) - t, t = now(threads);
+    pairs += lap();
     sum_forces(s.pairs, s.context, s.bodies);
-    sums += now(threads) - t, t = now(threads);
+    sums += lap();
     work += kick(s.bodies, s.context);
-    motion += now(threads) - t, t = now(threads);
+    motion += lap();
     s.flow.friction += friction_loss(s.pairs, threads) + viscous_loss(s.pairs, threads);
-    ledger += now(threads) - t;
-    touched += count_contacts(s.pairs), near += s.pairs.size();
+    ledger += lap();
   }
-  const double whole = motion + search + pairs + sums + ledger;
-  std::printf(
-      "  %d thread%s %7.3f us a touching pair, %6.3f a near pair, %7.3f a grain;"
-      "  motion %.0f %%, search %.0f %%, pairs %.0f %%, sums %.0f %%, ledger %.0f %%\n",
-      threads, threads > 1 ? "s" : " ", 1e6 * whole / touched, 1e6 * whole / near,
-      1e6 * whole / steps / s.bodies.grains, 100 * motion / whole, 100 * search / whole,
-      100 * pairs / whole, 100 * sums / whole, 100 * ledger / whole);
-  return whole / touched;
+  const double whole = (motion + search + pairs + sums + ledger) / 100;
+  std::printf("  motion %.0f %%, search %.0f %%, pairs %.0f %%, sums %.0f %%, ledger %.0f %%\n",
+              motion / whole, search / whole, pairs / whole, sums / whole, ledger / whole);
+}
+
+// Time per near pair that does not touch and step [s]: such pairs again, by themselves, in a bed
+// that goes on as ever.
+double time_near(Scene s, int steps) {
+  Pairs near;
+  long rebuilds = -1, count = 0;
+  double seconds = 0, clock = now(1);
+  for (int k = 0; k < 1000; ++k) now(1);
+  clock = (now(1) - clock) / 1001;
+  for (int k = 0; k < steps; ++k) {
+    s.step();
+    if (s.candidates.state().rebuilds != rebuilds) {
+      rebuilds = s.candidates.state().rebuilds;
+      near = s.pairs;
+      std::vector<int> kept;
+      for (int p = 0; p < near.size(); ++p)
+        if (!near.touching[p]) kept.push_back(p);
+      near.rearrange(kept);
+      near.index_bodies(s.bodies.size());
+    }
+    const double start = now(1);
+    s.forces.evaluate(s.bodies, s.shapes, s.materials, s.context, s.candidates.travel(), near);
+    s.round.evaluate(s.bodies, s.shapes, s.materials, s.context, s.candidates.travel(), near);
+    seconds += now(1) - start - clock;
+    count += near.size() - count_contacts(near);
+  }
+  return seconds / count;
 }
 
 }  // namespace
@@ -124,7 +159,8 @@ double time_steps(Scene s, int threads, int steps) {
 int main(int argc, char** argv) {
   const int grains = argc > 1 ? std::atoi(argv[1]) : 1000,
             steps = argc > 2 ? std::atoi(argv[2]) : 1000;
-  const std::string folder = argc > 3 ? argv[3] : "";
+  const std::string folder = argc > 3 ? argv[3] : "", only = argc > 4 ? argv[4] : "";
+  const int most_threads = argc > 5 ? std::atoi(argv[5]) : 2;
   std::ofstream csv;
   if (!folder.empty()) {
     csv.open(folder + "/shapes.csv");
@@ -143,15 +179,21 @@ int main(int argc, char** argv) {
       {"polyhedra", plain},
       {"polyhedra and clumps of 8", half}};
   for (const auto& [name, shapes] : beds) {
+    if (!only.empty() && only != name) continue;
     const Scene s = settled(shapes, grains);
     std::printf("%s: %d grains, %d touching of %d near pairs, kinetic energy %.1e J\n", name,
                 grains, count_contacts(s.pairs), s.pairs.size(), s.now().kinetic);
     if (!folder.empty())
       write_bed(s, box_of(shapes, grains), kDensity, folder + "/" + name + ".txt");
-    for (const int threads : {1, 2}) {
-      const double seconds = time_steps(s, threads, steps);
+    for (int threads = 1; threads <= most_threads; ++threads) {
+      const double step = time_whole(s, threads, steps), seconds = step / count_contacts(s.pairs);
+      std::printf("  %d thread%s: %.3f us a touching pair, %.3f us a grain;", threads,
+                  threads > 1 ? "s" : "", 1e6 * seconds, 1e6 * step / grains);
+      print_stages(s, threads, steps / 4 + 1);
       csv << name << "," << grains << "," << count_contacts(s.pairs) << "," << s.context.dt << ","
           << threads << "," << seconds << "\n";
     }
+    std::printf("  %.3f us a near pair that does not touch\n", 1e6 * time_near(s, steps / 4 + 1));
+    std::fflush(stdout);
   }
 }

@@ -25,8 +25,9 @@ TEST(Friction, rigid_motion_of_a_pair_is_no_slip) {
   const Vec3 shift(.01, .02, -.03);
   const auto moved = [&](const Vec3& p) -> Vec3 { return q * p + shift; };
   const double dt = .1;
-  const ContactSlip s = contact_slip(dt, (moved(xa) - xa) / dt, turn, c - xa, moved(c) - moved(xa),
-                                     (moved(xb) - xb) / dt, turn, c - xb, moved(c) - moved(xb));
+  const ContactSlip s =
+      contact_slip<Vec3>(dt, (moved(xa) - xa) / dt, turn, c - xa, moved(c) - moved(xa),
+                         (moved(xb) - xb) / dt, turn, c - xb, moved(c) - moved(xb));
   EXPECT_LT(s.displacement.norm(), 1e-15);
   EXPECT_LT((turned(xa, turn) - q * xa).norm(), 1e-15);
 }
@@ -124,7 +125,7 @@ TEST(Friction, of_a_stuck_pair_turned_by_360_degrees) {
       s.candidates.update(b, s.shapes, s.context, s.pairs);
       s.evaluate(1);
       if (k == steps / 2 - 1) {
-        const Vec3 half = turned(friction, M_PI * Vec3(1, 2, 3).normalized());
+        const Vec3 half = turned<Vec3>(friction, M_PI * Vec3(1, 2, 3).normalized());
         EXPECT_LT((s.pairs.friction[0] - half).norm(), 1e-10 * friction.norm()) << steps;
       }
     }

@@ -8,31 +8,44 @@
 //   F = max(0, (F_el + c v)/(1 + c dt/(2m))),   v the speed at mid-step, m = 1/(1/m_a + 1/m_b),
 // so that damping is of second order in time and stable at any step.
 #pragma once
-#include <algorithm>
-
+#include "dem/contact/eight.h"
 #include "dem/contact/laws/pressure_law.h"
 
 namespace trackbed::dem {
 
-struct BallContact {
-  double overlap;  ///< delta > 0 [m]
-  double radius;   ///< R* = 1/(1/r_a + 1/r_b), that of a for a flat b [m]
-  double rate;     ///< d(delta)/dt at mid-step [m/s]
-  double mass;     ///< m [kg]
+/// Of one contact (Number double) or eight (Eight).
+template <class Number>
+struct BallContactOf {
+  Number overlap;  ///< delta > 0 [m]
+  Number radius;   ///< R* = 1/(1/r_a + 1/r_b), that of a for a flat b [m]
+  Number rate;     ///< d(delta)/dt at mid-step [m/s]
+  Number mass;     ///< m [kg]
   double dt;       ///< [s]
 };
 
-struct BallResponse {
-  double energy = 0;      ///< U [J]
-  double elastic = 0;     ///< dU/d(delta) [N]
-  double force = 0;       ///< with damping, >= 0 [N]
-  double stiffness = 0;   ///< d2U/d(delta)2 [N/m]
-  double tangential = 0;  ///< [N/m]
+/// What these laws read of PairMaterial.
+template <class Number>
+struct BallMaterialOf {
+  Number modulus, friction, damping, stiffness, round_ratio;
+};
+inline BallMaterialOf<double> ball_material(const PairMaterial& m) {
+  return {m.modulus, m.friction, m.damping, m.stiffness, m.round_ratio};
+}
+
+template <class Number>
+struct BallResponseOf {
+  Number energy;      ///< U [J]
+  Number elastic;     ///< dU/d(delta) [N]
+  Number force;       ///< with damping, >= 0 [N]
+  Number stiffness;   ///< d2U/d(delta)2 [N/m]
+  Number tangential;  ///< [N/m]
 };
 
 /// Total force of an elastic one and a damper c [N s/m].
-inline double damped(double elastic, double c, const BallContact& b) {
-  return std::max(0.0, (elastic + c * b.rate) / (1 + c * b.dt / (2 * b.mass)));
+template <class Number>
+Number damped(const Number& elastic, const Number& c, const BallContactOf<Number>& b) {
+  const Number zero = 0, force = (elastic + c * b.rate) / (1 + 0.5 * b.dt * c / b.mass);
+  return where_less(zero, force, force, zero);
 }
 
 }  // namespace trackbed::dem

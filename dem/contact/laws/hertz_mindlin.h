@@ -18,14 +18,17 @@ namespace trackbed::dem {
 
 struct HertzMindlinLaw {
   static constexpr const char* name = "hertz_mindlin";
-  BallResponse operator()(const BallContact& b, const PairMaterial& m) const {
-    BallResponse r;
-    const double s = m.modulus * std::sqrt(b.radius * b.overlap);  // E* a, a the contact's radius
+  template <class Number>
+  BallResponseOf<Number> operator()(const BallContactOf<Number>& b,
+                                    const BallMaterialOf<Number>& m) const {
+    using std::sqrt;
+    BallResponseOf<Number> r;
+    const Number s = m.modulus * sqrt(b.radius * b.overlap);  // E* a, a the contact's radius
     r.elastic = 4. / 3 * s * b.overlap;
     r.energy = 0.4 * r.elastic * b.overlap;
     r.stiffness = 2 * s;
     r.tangential = m.round_ratio * r.stiffness;
-    r.force = damped(r.elastic, m.damping * std::sqrt(4. / 3 * s * b.mass), b);
+    r.force = damped<Number>(r.elastic, m.damping * sqrt(4. / 3 * s * b.mass), b);
     return r;
   }
 };

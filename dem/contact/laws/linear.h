@@ -14,13 +14,16 @@ namespace trackbed::dem {
 
 struct LinearLaw {
   static constexpr const char* name = "linear";
-  BallResponse operator()(const BallContact& b, const PairMaterial& m) const {
-    BallResponse r;
+  template <class Number>
+  BallResponseOf<Number> operator()(const BallContactOf<Number>& b,
+                                    const BallMaterialOf<Number>& m) const {
+    using std::sqrt;
+    BallResponseOf<Number> r;
     r.elastic = m.stiffness * b.overlap;
-    r.energy = r.elastic * b.overlap / 2;
+    r.energy = 0.5 * r.elastic * b.overlap;
     r.stiffness = m.stiffness;
     r.tangential = m.round_ratio * m.stiffness;
-    r.force = damped(r.elastic, m.damping * std::sqrt(m.stiffness * b.mass), b);
+    r.force = damped<Number>(r.elastic, m.damping * sqrt(m.stiffness * b.mass), b);
     return r;
   }
 };

@@ -16,14 +16,17 @@ namespace trackbed::dem {
 
 struct Sun2015Law {
   static constexpr const char* name = "sun2015";
-  BallResponse operator()(const BallContact& b, const PairMaterial& m) const {
-    BallResponse r;
-    const double secant = 4. / 3 * m.modulus * std::sqrt(b.radius * b.overlap);  // K_n delta^(1/2)
+  template <class Number>
+  BallResponseOf<Number> operator()(const BallContactOf<Number>& b,
+                                    const BallMaterialOf<Number>& m) const {
+    using std::sqrt;
+    BallResponseOf<Number> r;
+    const Number secant = 4. / 3 * m.modulus * sqrt(b.radius * b.overlap);  // K_n delta^(1/2)
     r.elastic = secant * b.overlap;
     r.energy = 0.4 * r.elastic * b.overlap;
     r.stiffness = 1.5 * secant;
     r.tangential = 1.5 * m.round_ratio * secant;
-    r.force = damped(r.elastic, m.damping * std::sqrt(secant * b.mass), b);
+    r.force = damped<Number>(r.elastic, m.damping * sqrt(secant * b.mass), b);
     return r;
   }
 };

@@ -1,0 +1,159 @@
+// Eight vectors at a time, components apart, and how they get to and from arrays of Vec3; the few
+// operations by which formulas are written once for one contact (Vec3) and for eight (Eight3).
+#pragma once
+#include <utility>
+
+#include "dem/contact/eight.h"
+#include "dem/types.h"
+
+namespace trackbed::dem {
+
+struct Eight3 {
+  Eight x, y, z;
+  Eight3() = default;
+  Eight3(Eight a, Eight b, Eight c) : x(a), y(b), z(c) {}
+  explicit Eight3(const Vec3& v) : x(v.x()), y(v.y()), z(v.z()) {}
+  friend Eight3 operator+(const Eight3& a, const Eight3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend Eight3 operator-(const Eight3& a, const Eight3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend Eight3 operator*(Eight s, const Eight3& a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+[[gnu::always_inline]] inline Eight dot(const Eight3& a, const Eight3& b) {
+  return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+}
+[[gnu::always_inline]] inline Eight3 cross(const Eight3& a, const Eight3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Eight3 where_less(Eight a, Eight b, const Eight3& yes, const Eight3& no) {
+  return {where_less(a, b, yes.x, no.x), where_less(a, b, yes.y, no.y),
+          where_less(a, b, yes.z, no.z)};
+}
+inline double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
+inline Vec3 cross(const Vec3& a, const Vec3& b) { return a.cross(b); }
+template <class V>
+auto squared_norm(const V& a) {
+  return dot(a, a);
+}
+
+/// Its number: double of Vec3, Eight of Eight3.
+template <class V>
+using NumberOf = decltype(squared_norm(std::declval<V>()));
+
+#ifdef TRACKBED_AVX512
+
+/// Eight in a row.
+[[gnu::always_inline]] inline Eight3 load3(const Vec3* v) {
+  const double* p = v->data();
+  const __m512d a = _mm512_loadu_pd(p), b = _mm512_loadu_pd(p + 8), c = _mm512_loadu_pd(p + 16);
+  const auto pick = [&](__m512i ab, __m512i with_c) {
+    return _mm512_permutex2var_pd(_mm512_permutex2var_pd(a, ab, b), with_c, c);
+  };
+  return {pick(_mm512_setr_epi64(0, 3, 6, 9, 12, 15, 0, 0),
+               _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 10, 13)),
+          pick(_mm512_setr_epi64(1, 4, 7, 10, 13, 0, 0, 0),
+               _mm512_setr_epi64(0, 1, 2, 3, 4, 8, 11, 14)),
+          pick(_mm512_setr_epi64(2, 5, 8, 11, 14, 0, 0, 0),
+               _mm512_setr_epi64(0, 1, 2, 3, 4, 9, 12, 15))};
+}
+[[gnu::always_inline]] inline void store3(Vec3* v, const Eight3& r) {
+  double* p = v->data();
+  const auto pick = [&](__m512i xy, __m512i with_z) {
+    return _mm512_permutex2var_pd(_mm512_permutex2var_pd(r.x.v, xy, r.y.v), with_z, r.z.v);
+  };
+  _mm512_storeu_pd(p, pick(_mm512_setr_epi64(0, 8, 0, 1, 9, 0, 2, 10),
+                           _mm512_setr_epi64(0, 1, 8, 3, 4, 9, 6, 7)));
+  _mm512_storeu_pd(p + 8, pick(_mm512_setr_epi64(0, 3, 11, 0, 4, 12, 0, 5),
+                               _mm512_setr_epi64(10, 1, 2, 11, 4, 5, 12, 7)));
+  _mm512_storeu_pd(p + 16, pick(_mm512_setr_epi64(13, 0, 6, 14, 0, 7, 15, 0),
+                                _mm512_setr_epi64(0, 13, 2, 3, 14, 5, 6, 15)));
+}
+/// Those at eight places.
+[[gnu::always_inline]] inline Eight3 gather3(const Vec3* v, const int* at) {
+  const auto row = [&](int k) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_maskz_loadu_pd(7, v[at[k]].data())),
+                              _mm256_maskz_loadu_pd(7, v[at[k + 4]].data()), 1);
+  };
+  const __m512d a = row(0), b = row(1), c = row(2), d = row(3);
+  const __m512d xz = _mm512_unpacklo_pd(a, b), xz2 = _mm512_unpacklo_pd(c, d);
+  const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                second = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  return {_mm512_permutex2var_pd(xz, first, xz2),
+          _mm512_permutex2var_pd(_mm512_unpackhi_pd(a, b), first, _mm512_unpackhi_pd(c, d)),
+          _mm512_permutex2var_pd(xz, second, xz2)};
+}
+
+#else
+
+[[gnu::always_inline]] inline Eight3 gather3(const Vec3* v, const int* at) {
+  double x[8], y[8], z[8];
+  for (int k = 0; k < 8; ++k) x[k] = v[at[k]].x(), y[k] = v[at[k]].y(), z[k] = v[at[k]].z();
+  return {Eight::load(x), Eight::load(y), Eight::load(z)};
+}
+[[gnu::always_inline]] inline Eight3 load3(const Vec3* v) {
+  constexpr int kRow[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return gather3(v, kRow);
+}
+[[gnu::always_inline]] inline void store3(Vec3* v, const Eight3& r) {
+  double x[8], y[8], z[8];
+  r.x.store(x), r.y.store(y), r.z.store(z);
+  for (int k = 0; k < 8; ++k) v[k] = Vec3(x[k], y[k], z[k]);
+}
+
+#endif
+
+/// Sum of the first `count`, always in the same order.
+inline double sum_first(Eight a, int count) {
+  double x[8];
+  a.store(x);
+  for (int k = count; k < 8; ++k) x[k] = 0;
+  return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+}
+
+/// Up to eight places of an array, in a row or not; those from `count` on repeat the first one and
+/// are read but not written.
+struct Eightfold {
+  int at[8];
+  int count = 0;
+  bool in_a_row = false;
+  void add(int place) { at[count++] = place; }
+  /// Places that are stored at other places.
+  void of(const int* places, const Eightfold& e) {
+    count = e.count;
+    for (int k = 0; k < 8; ++k) at[k] = places[e.at[k]];
+  }
+  void complete() {
+    in_a_row = count == 8 && at[7] - at[0] == 7;  // ascending
+    for (int k = count; k < 8; ++k) at[k] = at[0];
+  }
+};
+
+[[gnu::always_inline]] inline Eight3 read(const Vec3* v, const Eightfold& e) {
+  return e.in_a_row ? load3(v + e.at[0]) : gather3(v, e.at);
+}
+template <class T>
+[[gnu::always_inline]] inline Eight read(const T* v, const Eightfold& e) {
+  double x[8];
+  for (int k = 0; k < 8; ++k) x[k] = v[e.at[k]];
+  return Eight::load(x);
+}
+[[gnu::always_inline]] inline Eight read(const double* v, const Eightfold& e) {
+  return e.in_a_row ? Eight::load(v + e.at[0]) : read<double>(v, e);
+}
+[[gnu::always_inline]] inline void write(Vec3* v, const Eightfold& e, const Eight3& r) {
+  if (e.in_a_row) return store3(v + e.at[0], r);
+  double x[8], y[8], z[8];
+  r.x.store(x), r.y.store(y), r.z.store(z);
+  for (int k = 0; k < e.count; ++k) v[e.at[k]] = Vec3(x[k], y[k], z[k]);
+}
+[[gnu::always_inline]] inline void write(double* v, const Eightfold& e, Eight r) {
+  if (e.in_a_row) return r.store(v + e.at[0]);
+  double x[8];
+  r.store(x);
+  for (int k = 0; k < e.count; ++k) v[e.at[k]] = x[k];
+}
+
+}  // namespace trackbed::dem
