@@ -18,6 +18,7 @@ motion_test(motion_impacts hard)
 motion_test(pairs_friction unit)
 motion_test(pairs_resistance unit)
 motion_test(motion_damping unit)
+motion_test(motion_together unit)
 motion_test(pairs_candidates unit)
 
 add_library(settled_bed STATIC ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/settled_bed.cc)
