@@ -10,71 +10,79 @@ namespace {
 
 using dem::Mat3;
 using dem::Vec3;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// Adds a contact's share to a grain's bound, as dem::measured_limit does for pairs.
-void add_contact(const dem::PatchContacts& k, int i, Mat6& sum) {
-  const Vec3 n = k.normal_force[i].normalized();
-  const Mat3 normal = n * n.transpose(), tangent = Mat3::Identity() - normal;
-  const Mat3 K = k.stiffness[i] * normal + k.friction_stiffness[i] * tangent;
-  Mat3 C;  // velocity of the contact point = v - C omega
-  const Vec3& r = k.arm[i];
-  C << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  sum.topLeftCorner<3, 3>() += 2 * K;
-  sum.topRightCorner<3, 3>() -= 2 * K * C;
-  sum.bottomLeftCorner<3, 3>() -= 2 * C.transpose() * K;
-  sum.bottomRightCorner<3, 3>() += 2 * (C.transpose() * K * C + k.tilt_stiffness[i] * tangent);
+/// A grain's end of its contact with a surface that may give way.
+dem::ContactShare share_of(const dem::PatchContacts& k, int i) {
+  return {2,
+          k.stiffness[i],
+          k.friction_stiffness[i],
+          k.tilt_stiffness[i],
+          k.normal_force[i].normalized(),
+          k.arm[i]};
 }
 
-// Largest omega^2 of a grain; directions in which it does not move left out.
-double grain_omega2(const dem::Bodies& b, int g, const Mat6& sum) {
-  Mat6 root = Mat6::Zero();  // M^-1/2
-  for (int d = 0; d < 3; ++d) root(d, d) = (b.freedom[g] >> d & 1) / std::sqrt(b.mass[g]);
-  if (b.freedom[g] >> 3)
-    root.bottomRightCorner<3, 3>() =
-        b.R[g] * b.inertia[g].cwiseSqrt().cwiseInverse().asDiagonal() * b.R[g].transpose();
-  const Mat6 bound = root * sum * root;
-  return Eigen::SelfAdjointEigenSolver<Mat6>(bound, Eigen::EigenvaluesOnly).eigenvalues()[5];
+dem::FurtherContacts contacts_with_surfaces(const World& w) {
+  dem::FurtherContacts all;
+  all.first.assign(w.bodies.size() + 1, 0);
+  for (const Surface& s : w.surfaces)
+    for (int i = 0; i < s.contacts.size(); ++i)
+      if (s.contacts.touching[i]) ++all.first[s.contacts.grain[i] + 1];
+  for (int i = 0; i < w.bodies.size(); ++i) all.first[i + 1] += all.first[i];
+  all.contact.resize(all.first.back());
+  std::vector<int> next = all.first;
+  for (const Surface& s : w.surfaces)
+    for (int i = 0; i < s.contacts.size(); ++i)
+      if (s.contacts.touching[i])
+        all.contact[next[s.contacts.grain[i]]++] = share_of(s.contacts, i);
+  return all;
+}
+
+/// The surface's end: twice the contacts' stiffness, by the share of force that each node takes.
+std::vector<fem::NodeSpring> springs_on(const Surface& s) {
+  const dem::PatchContacts& k = s.contacts;
+  const std::vector<int>& same_as = s.structure->surface().same_as;
+  std::vector<Mat3> at(s.patch.carried, Mat3::Zero());
+  for (int i = 0; i < k.size(); ++i) {
+    if (!k.touching[i]) continue;
+    double total = 0;
+    for (const auto& [node, force] : k.nodal[i]) total += force.norm();
+    if (!(total > 0)) continue;
+    const Vec3 n = k.normal_force[i].normalized();
+    const Mat3 normal = n * n.transpose(), tangent = Mat3::Identity() - normal;
+    const Mat3 K = 2 * (k.stiffness[i] * normal + k.friction_stiffness[i] * tangent);
+    for (const auto& [node, force] : k.nodal[i])
+      at[same_as[s.patch.master[node]]] += force.norm() / total * K;
+  }
+  std::vector<fem::NodeSpring> springs;
+  for (int i = 0; i < s.patch.carried; ++i) {
+    if (at[i].isZero(0)) continue;
+    fem::NodeSpring spring{i, {}, 0};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) spring.stiffness[r][c] = at[i](r, c);
+    spring.largest =
+        Eigen::SelfAdjointEigenSolver<Mat3>(at[i], Eigen::EigenvaluesOnly).eigenvalues()[2];
+    springs.push_back(spring);
+  }
+  return springs;
 }
 
 }  // namespace
 
 dem::TimeStepLimit measured_limit(const World& w, int threads) {
-  dem::TimeStepLimit limit = dem::measured_limit(w.bodies, w.pairs, threads);
-  const dem::Bodies& b = w.bodies;
+  if (w.surfaces.empty()) return dem::measured_limit(w.bodies, w.pairs, threads);
+  const dem::FurtherContacts with_surfaces = contacts_with_surfaces(w);
+  dem::TimeStepLimit limit = dem::measured_limit(w.bodies, w.pairs, threads, with_surfaces);
   double surface = 0;  // omega^2
-  int body = -1;
-  std::vector<int> touched;  // grains, once each
-  std::vector<int> place(b.grains, -1);
-  std::vector<Mat6> sums;
-  for (const Surface& s : w.surfaces) {
-    const dem::PatchContacts& k = s.contacts;
-    std::vector<double> node(s.patch.carried, 0.0);
-    for (int i = 0; i < k.size(); ++i) {
-      if (!k.touching[i]) continue;
-      int& at = place[k.grain[i]];
-      if (at < 0) {
-        at = static_cast<int>(sums.size());
-        sums.push_back(Mat6::Zero());
-        touched.push_back(k.grain[i]);
-      }
-      add_contact(k, i, sums[at]);
-      for (const auto& [n, force] : k.nodal[i])
-        node[s.patch.master[n]] +=
-            k.stiffness[i] * force.norm() / std::max(k.force[i].norm(), 1e-300);
-    }
-    double stiffest = 0;
-    for (const double sum : node) stiffest = std::max(stiffest, sum);
-    surface = std::max(surface, 2 * stiffest / s.structure->least_surface_mass());
+  for (const Surface& s : w.surfaces)
+    surface = std::max(surface, s.structure->contact_bound(springs_on(s)));
+  if (std::sqrt(surface) > limit.omega) limit = {2 / std::sqrt(surface), -1, std::sqrt(surface), 0};
+  const int steps = steps_per_exchange(w);
+  if (steps > 1) {
+    dem::Pairs none;
+    none.first.assign(w.bodies.size() + 1, 0);
+    const double grains = dem::measured_limit(w.bodies, none, threads, with_surfaces).omega;
+    limit.dt = std::min(limit.dt, 2 / (steps * std::max(grains, std::sqrt(surface))));
   }
-  for (std::size_t j = 0; j < touched.size(); ++j) {
-    const double omega2 = grain_omega2(b, touched[j], sums[j]);
-    if (omega2 > surface) surface = omega2, body = touched[j];
-  }
-  if (surface == 0) return limit;
-  if (std::sqrt(surface) > limit.omega) limit.body = body;
-  limit.omega = std::sqrt(limit.omega * limit.omega + surface);
-  limit.dt = std::min(2 / limit.omega, 2 / (steps_per_exchange(w) * std::sqrt(surface)));
   return limit;
 }
 

@@ -162,6 +162,11 @@ double ElasticBody::least_surface_mass() const {
                              : parts_->least_surface_mass();
 }
 double ElasticBody::largest_frequency() const { return fem::largest_frequency(parts_->matrices()); }
+double ElasticBody::contact_bound(const std::vector<NodeSpring>& springs) const {
+  double own = 0;  // omega
+  if (is_explicit()) own = (std::isfinite(largest_step()) ? 2 : 0.9 * 2) / explicit_limit();
+  return Structure::contact_bound(springs) + own * own;
+}
 double ElasticBody::largest_step() const { return parts_->stepper.largest_step(); }
 int ElasticBody::solver_iterations() const { return parts_->stepper.iterations(); }
 int ElasticBody::unknowns() const { return parts_->unknowns.count; }

@@ -154,6 +154,8 @@ class ElasticBody final : public Structure {
   double mass() const override;
   double least_surface_mass() const override;
   double largest_frequency() const override;
+  /// By nodes; and ω_max² more where it goes without a solve.
+  double contact_bound(const std::vector<NodeSpring>&) const override;
   double largest_step() const override;
   int unknowns() const override;
   StructureEnergy energy() const override;

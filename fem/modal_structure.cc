@@ -11,6 +11,34 @@ namespace trackbed::fem {
 namespace {
 
 constexpr double kStatic = 1;  // ωΔt beyond which a mode follows statically
+constexpr int kMostModes = 128;
+
+// Of a symmetric, positive semidefinite n x n matrix, from above: (tr A^64)^(1/64), six squarings.
+double largest_eigenvalue(std::vector<double> a, int n) {
+  const auto trace = [&] {
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += a[i * n + i];
+    return sum;
+  };
+  const double size = trace();
+  if (!(size > 0)) return 0;
+  for (double& x : a) x /= size;
+  double log_scale = 0;  // A^(2^k) = size^(2^k) exp(log_scale) a
+  std::vector<double> square(a.size());
+  for (int k = 0; k < 6; ++k) {
+    std::fill(square.begin(), square.end(), 0.);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double f = a[i * n + j];
+        for (int l = 0; l < n; ++l) square[i * n + l] += f * a[j * n + l];
+      }
+    a.swap(square);
+    const double t = trace();
+    for (double& x : a) x /= t;
+    log_scale = 2 * log_scale + std::log(t);
+  }
+  return size * std::exp(log_scale / 64);
+}
 
 }  // namespace
 
@@ -163,6 +191,25 @@ double ModalStructure::gauge(int k) const { return dot(m_.gauges.at(k).shape, q_
 
 double ModalStructure::largest_frequency() const {
   return *std::max_element(m_.omega.begin(), m_.omega.end());
+}
+
+double ModalStructure::contact_bound(const std::vector<NodeSpring>& springs) const {
+  const int n = modes();
+  if (n > kMostModes) return Structure::contact_bound(springs);
+  std::vector<double> sum(n * n, 0.);  // Φᵀ S Φ
+  std::vector<double> pushed(n);
+  for (const NodeSpring& s : springs)
+    for (int d = 0; d < 3; ++d) {
+      const double* shape = &m_.shape[3 * s.node * n];
+      for (int k = 0; k < n; ++k)
+        pushed[k] = s.stiffness[d][0] * shape[k] + s.stiffness[d][1] * shape[n + k] +
+                    s.stiffness[d][2] * shape[2 * n + k];
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) sum[i * n + j] += shape[d * n + i] * pushed[j];
+    }
+  const double lambda = largest_eigenvalue(std::move(sum), n), own = largest_frequency(),
+               cosine = std::cos(0.5 * kStatic);
+  return std::min(lambda + own * own, lambda / (cosine * cosine));
 }
 
 double ModalStructure::kinetic() const {

@@ -17,6 +17,12 @@
 // Modes with ωΔt > 1 only follow statically: their modal mass is raised to (ωΔt)², which leaves
 // flexibility, rigid motion and momentum as they are.
 //
+// Stability. Without damping the step is q₊ − 2q + q₋ = (2 sin(½ωΔt)/ω)² (p − ω² q): leapfrog with
+// the modal mass μ = (½ωΔt / sin ½ωΔt)² ≥ 1. With contact springs S on the surface and grains that
+// go by leapfrog too, all is one leapfrog: stable while Δt² λ_max < 4. Of that the modes' own share
+// is 4 sin²(½ωΔt) ≤ 4 sin² ½, as ωΔt ≤ 1, and the springs' at most Δt² λ_max(Φᵀ S Φ): what counts
+// is the mass that the body as a whole opposes to the springs, not that of one node of its mesh.
+//
 // Cost of a step: two products with Φ, nodes × modes each. No solve, no factor.
 #pragma once
 #include <functional>
@@ -94,6 +100,10 @@ class ModalStructure final : public Structure {
   double mass() const override { return m_.mass; }
   double least_surface_mass() const override { return m_.least_surface_mass; }
   double largest_frequency() const override;
+  /// The lesser of λ + ω_max² and λ / cos² ½, λ = λ_max(Φᵀ S Φ) (see Stability above), λ from above
+  /// and at most (modes)^(1/64) too large; by nodes beyond 128 modes, where that would cost more
+  /// than it gains.
+  double contact_bound(const std::vector<NodeSpring>&) const override;
   int unknowns() const override { return modes(); }
   StructureEnergy energy() const override;
   void save(std::vector<double>& state) const override;

@@ -8,6 +8,7 @@
 //   becomes t+dt
 // The same forces act on the grains: action equals reaction to the last bit.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -37,8 +38,9 @@ struct SurfaceMesh {
 
 /// Energies [J] since the start. Works are sums of ½(F_n + F_{n+1})·(u_{n+1} − u_n).
 /// work_loads + work_surface + at_start = kinetic + strain + gravity + dissipated_damping +
-/// dissipated_boundary + dissipated_material + numerical, where `numerical` (what the time integration took out, or put
-/// in) is what remains: zero to round-off for Newmark's average acceleration.
+/// dissipated_boundary + dissipated_material + numerical, where `numerical` (what the time
+/// integration took out, or put in) is what remains: zero to round-off for Newmark's average
+/// acceleration.
 struct StructureEnergy {
   double kinetic = 0, strain = 0, gravity = 0;
   double work_loads = 0, work_surface = 0;
@@ -47,6 +49,13 @@ struct StructureEnergy {
   double at_start = 0;
   double dissipated_material = 0;  ///< plastic work of a material with history
   double dissipated_boundary = 0;  ///< in dashpots of boundaries: what waves carry away
+};
+
+/// What contacts put on a surface node, as a spring to a place at rest: symmetric [N/m].
+struct NodeSpring {
+  int node;
+  std::array<Vec, 3> stiffness;
+  double largest;  ///< eigenvalue
 };
 
 class Structure {
@@ -85,6 +94,14 @@ class Structure {
       const = 0;  ///< least lumped mass of a surface node that can move [kg]
   virtual double largest_frequency()
       const = 0;  ///< upper estimate of ω_max of the full model [rad/s]
+
+  /// ω² [1/s²], so that steps up to 2/ω are stable with these springs on the surface, at most one a
+  /// node. By default λ_max(M⁻¹K) ≤ largest spring / least mass of a node.
+  virtual double contact_bound(const std::vector<NodeSpring>& springs) const {
+    double stiffest = 0;
+    for (const NodeSpring& s : springs) stiffest = std::max(stiffest, s.largest);
+    return stiffest / least_surface_mass();
+  }
   /// Largest time step [s] of an explicit scheme that was asked for by name; others: infinite.
   virtual double largest_step() const { return std::numeric_limits<double>::infinity(); }
   virtual int unknowns() const = 0;

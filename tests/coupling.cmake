@@ -6,6 +6,7 @@ endfunction()
 
 coupling_test(coupling_world unit)
 coupling_test(coupling_exchange verification)
+coupling_test(coupling_limit verification)
 coupling_test(coupling_beam_impact verification)
 coupling_test(coupling_servo verification)
 coupling_test(coupling_threads hard)

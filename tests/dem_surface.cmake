@@ -4,6 +4,7 @@ function(surface_test name label)
   target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
 endfunction()
 
+surface_test(surface_facet unit)
 surface_test(surface_patch unit)
 surface_test(surface_energy verification)
 surface_test(surface_round verification)

@@ -1,41 +1,13 @@
 #include "dem/contact/overlap.h"
 
+#include "dem/contact/cone_sums.h"
 #include "dem/contact/overlap_clip.h"
 #include "dem/contact/overlap_simple.h"
 
 namespace trackbed::dem {
 namespace {
 
-// Sums over cones from `about` to triangles: 6 V, and the first and second moments' raw sums.
-struct Cones {
-  double six = 0, x = 0, y = 0, z = 0;
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-
-  void add(const OverlapPiece& piece, const Vec3* points, const Vec3& about) {
-    const Vec3* p = points + piece.first;
-    const double ax = p[0].x() - about.x(), ay = p[0].y() - about.y(), az = p[0].z() - about.z();
-    double bx = p[1].x() - about.x(), by = p[1].y() - about.y(), bz = p[1].z() - about.z();
-    for (int i = 2; i < piece.count; ++i) {
-      const double cx = p[i].x() - about.x(), cy = p[i].y() - about.y(), cz = p[i].z() - about.z();
-      const double ux = bx - ax, uy = by - ay, uz = bz - az;
-      const double vx = cx - ax, vy = cy - ay, vz = cz - az;
-      const double v =
-          ax * (uy * vz - uz * vy) + ay * (uz * vx - ux * vz) + az * (ux * vy - uy * vx);
-      const double sx = ax + bx + cx, sy = ay + by + cy, sz = az + bz + cz;
-      six += v;
-      x += v * sx, y += v * sy, z += v * sz;
-      xx += v * (sx * sx + ax * ax + bx * bx + cx * cx);
-      yy += v * (sy * sy + ay * ay + by * by + cy * cy);
-      zz += v * (sz * sz + az * az + bz * bz + cz * cz);
-      xy += v * (sx * sy + ax * ay + bx * by + cx * cy);
-      xz += v * (sx * sz + ax * az + bx * bz + cx * cz);
-      yz += v * (sy * sz + ay * az + by * bz + cy * cz);
-      bx = cx, by = cy, bz = cz;
-    }
-  }
-};
-
-// The same for a tetrahedron about the mean of its corners, where the first moments vanish:
+// Moments of a tetrahedron about the mean of its corners, where the first moments vanish:
 // V/20 sum_i y_i y_i^T.
 OverlapMoments tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double x = 0.25 * (a.x() + b.x() + c.x() + d.x()),
@@ -101,22 +73,18 @@ bool sum_moments(bool is_tetrahedron, const Mark& mark, OverlapWorkspace& work,
     for (std::size_t i = mark.points; i < work.points.size(); ++i) about += work.points[i];
     about /= static_cast<double>(count);
   }
-  Cones sum;
-  for (std::size_t i = mark.a; i < work.a_pieces.size(); ++i)
-    sum.add(work.a_pieces[i], work.points.data(), about);
-  for (std::size_t i = mark.b; i < work.b_pieces.size(); ++i)
-    sum.add(work.b_pieces[i], work.points.data(), about);
+  ConeSums sum;
+  const auto add = [&](const OverlapPiece& piece) {
+    sum.add(work.points.data() + piece.first, piece.count, about);
+  };
+  for (std::size_t i = mark.a; i < work.a_pieces.size(); ++i) add(work.a_pieces[i]);
+  for (std::size_t i = mark.b; i < work.b_pieces.size(); ++i) add(work.b_pieces[i]);
   if (!(sum.six > 0)) {
     mark.back(work);
     return false;
   }
   moments.about = about;
-  moments.volume += sum.six / 6;
-  moments.first += Vec3(sum.x, sum.y, sum.z) / 24;
-  Mat3& m = moments.second;
-  m(0, 0) += sum.xx / 120, m(1, 1) += sum.yy / 120, m(2, 2) += sum.zz / 120;
-  m(0, 1) += sum.xy / 120, m(0, 2) += sum.xz / 120, m(1, 2) += sum.yz / 120;
-  m(1, 0) = m(0, 1), m(2, 0) = m(0, 2), m(2, 1) = m(1, 2);
+  sum.add_to(moments);
   return true;
 }
 

@@ -48,8 +48,18 @@ double largest_eigenvalue(const Mat6& a) {
   return size * std::exp(log_scale / 64);
 }
 
+void add(const ContactShare& c, Mat6& sum) {
+  const Mat3 normal = c.normal * c.normal.transpose(), tangent = Mat3::Identity() - normal;
+  const Mat3 K = c.normal_stiffness * normal + c.friction_stiffness * tangent;
+  const Mat3 C = cross_matrix(c.arm);  // v_c = v - C omega
+  sum.topLeftCorner<3, 3>() += c.split * K;
+  sum.topRightCorner<3, 3>() -= c.split * K * C;
+  sum.bottomRightCorner<3, 3>() += c.split * (C.transpose() * K * C + c.tilt * tangent);
+}
+
 /// Largest eigenvalue of a body's bound [1/s2] and its number of contacts.
-double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
+double body_bound(const Bodies& b, const Pairs& pairs, const FurtherContacts& further, int i,
+                  int& contacts) {
   Mat6 sum = Mat6::Zero();
   contacts = 0;
   for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
@@ -57,17 +67,13 @@ double body_bound(const Bodies& b, const Pairs& pairs, int i, int& contacts) {
     if (!pairs.touching[p]) continue;
     ++contacts;
     const int other = e >= 0 ? pairs.b[p] : pairs.a[p];
-    const double share = b.freedom[other] == kFixed ? 1 : 2;
-    const Vec3 n = pairs.axis[p];
-    const double kn = pairs.stiffness[p], kt = pairs.friction_stiffness[p];
-    const Mat3 normal = n * n.transpose(), tangent = Mat3::Identity() - normal;
-    const Mat3 K = kn * normal + kt * tangent;
-    const Mat3 C = cross_matrix(e >= 0 ? pairs.arm_a[p] : pairs.arm_b[p]);  // v_c = v - C omega
-    sum.topLeftCorner<3, 3>() += share * K;
-    sum.topRightCorner<3, 3>() -= share * K * C;
-    sum.bottomRightCorner<3, 3>() +=
-        share * (C.transpose() * K * C + pairs.tilt_stiffness[p] * tangent);
+    add({b.freedom[other] == kFixed ? 1. : 2., pairs.stiffness[p], pairs.friction_stiffness[p],
+         pairs.tilt_stiffness[p], pairs.axis[p], e >= 0 ? pairs.arm_a[p] : pairs.arm_b[p]},
+        sum);
   }
+  if (!further.first.empty())
+    for (int k = further.first[i]; k < further.first[i + 1]; ++k, ++contacts)
+      add(further.contact[k], sum);
   if (contacts == 0) return 0;
   sum.bottomLeftCorner<3, 3>() = sum.topRightCorner<3, 3>().transpose();
   Vec3 move;
@@ -186,12 +192,13 @@ double rule_of_thumb(const std::string& rule, const Bodies& b, const ShapeTable&
   return dt;
 }
 
-TimeStepLimit measured_limit(const Bodies& b, const Pairs& pairs, int threads) {
+TimeStepLimit measured_limit(const Bodies& b, const Pairs& pairs, int threads,
+                             const FurtherContacts& further) {
   std::vector<double> omega2(b.size());
   std::vector<int> contacts(b.size());
 #pragma omp parallel for schedule(dynamic, 32) num_threads(threads) if (threads > 1)
   for (int i = 0; i < b.size(); ++i)
-    omega2[i] = b.freedom[i] == kFixed ? 0 : body_bound(b, pairs, i, contacts[i]);
+    omega2[i] = b.freedom[i] == kFixed ? 0 : body_bound(b, pairs, further, i, contacts[i]);
   TimeStepLimit worst = limit_of(-1, 0, 0);
   for (int i = 0; i < b.size(); ++i)
     if (omega2[i] > worst.omega * worst.omega) worst = limit_of(i, omega2[i], contacts[i]);

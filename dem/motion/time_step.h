@@ -9,6 +9,7 @@
 // tangents. Translation, rotation and friction in one.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "dem/contact/pair_forces.h"
 
@@ -49,7 +50,20 @@ TimeStepLimit expected_limit(const Bodies&, const ShapeTable&, const PairMateria
 double rule_of_thumb(const std::string& rule, const Bodies&, const ShapeTable&,
                      const PairMaterials&, const ContactExpectation& = {});
 
+/// A contact's share in the sum above for the body at its end: `split` is s_c, `arm` from the
+/// body's centre to the contact point [m], `normal` a unit vector, `tilt` about the tangents [N m].
+struct ContactShare {
+  double split, normal_stiffness, friction_stiffness, tilt;
+  Vec3 normal, arm;
+};
+
+/// Contacts of bodies besides the pairs (with deforming surfaces).
+struct FurtherContacts {
+  std::vector<int> first;  ///< body i's: [first[i], first[i+1]); empty: there are none
+  std::vector<ContactShare> contact;
+};
+
 /// From the contacts of the last evaluation, by the bound above.
-TimeStepLimit measured_limit(const Bodies&, const Pairs&, int threads);
+TimeStepLimit measured_limit(const Bodies&, const Pairs&, int threads, const FurtherContacts& = {});
 
 }  // namespace trackbed::dem

@@ -10,24 +10,14 @@
 #include "dem/contact/friction.h"
 #include "dem/contact/pair_evaluate.h"
 #include "dem/contact/pressure.h"
+#include "dem/surface/facet_cut.h"
 #include "dem/surface/patch_forces.h"
 #include "dem/surface/shell_cell.h"
 
 namespace trackbed::dem {
 
-/// Marks a cell entry that overlapped the grain at the last evaluation (PatchContacts::wake).
+/// Marks a facet entry that overlapped the grain at the last evaluation (PatchContacts::wake).
 inline constexpr double kReached = -1;
-
-inline Vec3 lowest_vertex(const ConvexView& v, const Pose& pose, const Vec3& up) {
-  const Vec3 body_up = pose.R.transpose() * up;
-  Vec3 lowest = Vec3::Zero();
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < v.vertices; ++k) {
-    const Vec3 p(v.x[k], v.y[k], v.z[k]);
-    if (p.dot(body_up) < least) least = p.dot(body_up), lowest = p;
-  }
-  return pose.x + pose.R * lowest;
-}
 
 /// Frame with third axis -normal: from the grain into the surface.
 inline ContactFrame surface_frame(const Vec3& origin, const Vec3& normal) {
@@ -55,9 +45,9 @@ inline void release(PatchContacts& k, int i) {
     (*v)[i] = 0;
 }
 
-/// Adds the moments of one cell, taken about a point of its own: where a grain's face lies in a
-/// cell's side, the pieces of that (empty) overlap do not close, and only about a point in their
-/// plane are they worth nothing.
+/// Adds the moments of one cell or facet, taken about a point of its own: where a grain's face lies
+/// in a cell's side, the pieces of that (empty) overlap do not close, and only about a point in
+/// their plane are they worth nothing.
 inline void add_moments(const OverlapMoments& cell, OverlapMoments& sum) {
   if (!(sum.volume > 0)) {
     sum = cell;
@@ -70,18 +60,70 @@ inline void add_moments(const OverlapMoments& cell, OverlapMoments& sum) {
                 cell.volume * d * d.transpose();
 }
 
-/// What clipping a grain against its cells leaves besides the workspace's pieces.
-struct ClippedCells {
+/// What cutting a grain with its facets leaves besides the workspace's pieces.
+struct FacetOverlaps {
   ContactFrame frame;
   OverlapMoments moments;
   std::vector<SurfacePiece> pieces;  ///< on the surface
   bool through = false;              ///< the grain reaches past the bottom of the shell
 };
 
-/// Clips the grain of contact i against the cells it reaches. False: none.
+/// Clips the grain against the three cells behind a triangle; true if it overlaps one.
 inline bool clip_cells(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
+                       int triangle, const Vec3& shift, OverlapWorkspace& work,
+                       FacetOverlaps& out) {
+  bool any = false;
+  for (int k = 3 * triangle; k < 3 * triangle + 3; ++k) {
+    ShellCell cell;
+    make_shell_cell(patch, k, shift, cell);
+    const std::size_t before = work.b_pieces.size();
+    OverlapMoments moments;
+    if (!overlap(grain, pose, cell.view, {Mat3::Identity(), cell.origin}, out.frame, work, moments))
+      continue;
+    any = true;
+    add_moments(moments, out.moments);
+    for (std::size_t p = before; p < work.b_pieces.size(); ++p) {
+      if (work.b_pieces[p].face == cell.outer_face)
+        out.pieces.push_back({static_cast<int>(p), triangle, shift});
+      if (work.b_pieces[p].face == cell.inner_face) out.through = true;
+    }
+  }
+  return any;
+}
+
+/// The same by the facet as a whole where that can be.
+inline bool cut_facet(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
+                      const Facet& facet, int triangle, const Vec3& shift, bool framed,
+                      OverlapWorkspace& work, FacetOverlaps& out) {
+  GrainBelow at;
+  const bool small = find_below(grain, pose, facet, at);
+  if (!framed) {
+    const int v = at.lowest_vertex;
+    out.frame =
+        surface_frame(pose.x + pose.R * Vec3(grain.x[v], grain.y[v], grain.z[v]), facet.normal);
+  }
+  if (small) {
+    const int before = static_cast<int>(work.b_pieces.size());
+    OverlapMoments moments;
+    switch (cut_behind_facet(grain, pose, facet, at, out.frame, work, moments)) {
+      case FacetOverlap::none:
+        return false;
+      case FacetOverlap::cut:
+        add_moments(moments, out.moments);
+        for (int p = before; p < static_cast<int>(work.b_pieces.size()); ++p)
+          out.pieces.push_back({p, triangle, shift});
+        return true;
+      case FacetOverlap::not_for_one_facet:
+        break;
+    }
+  }
+  return clip_cells(grain, pose, patch, triangle, shift, work, out);
+}
+
+/// Cuts the grain of contact i with the facets it reaches. False: none.
+inline bool cut_facets(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
                        double travel, OverlapWorkspace& work, PatchContacts& k, int i,
-                       ClippedCells& out) {
+                       FacetOverlaps& out) {
   bool framed = false;
   work.clear();
   out.pieces.clear();
@@ -89,35 +131,20 @@ inline bool clip_cells(const ConvexView& grain, const Pose& pose, const SurfaceP
   out.through = false;
   for (int e = k.first[i]; e < k.first[i + 1]; ++e) {
     if (travel + k.node_travel < k.wake[e]) continue;
-    ShellCell cell;
-    make_shell_cell(patch, k.cell[e], k.shift[e], cell);
-    const Pose cell_pose{Mat3::Identity(), cell.origin};
+    Facet facet;
+    make_facet(patch, k.triangle[e], k.shift[e], facet);
     if (k.wake[e] != kReached) {
-      const double gap = separating_axis(grain, pose, cell.view, cell_pose, k.axis[e]);
+      const double gap =
+          separating_axis(grain, pose, facet.hull(), {Mat3::Identity(), facet.origin}, k.axis[e]);
       if (gap > 0) {
         k.wake[e] = travel + k.node_travel + gap;
         continue;
       }
     }
-    const int triangle = k.cell[e] / 3;
-    if (!framed) {
-      const Vec3 normal = triangle_normal(patch, triangle);
-      out.frame = surface_frame(lowest_vertex(grain, pose, normal), normal);
-      framed = true;
-    }
-    const std::size_t before = work.b_pieces.size();
-    OverlapMoments moments;
-    if (!overlap(grain, pose, cell.view, cell_pose, out.frame, work, moments)) {
-      k.wake[e] = 0;
-      continue;
-    }
-    k.wake[e] = kReached;
-    add_moments(moments, out.moments);
-    for (std::size_t p = before; p < work.b_pieces.size(); ++p) {
-      if (work.b_pieces[p].face == cell.outer_face)
-        out.pieces.push_back({static_cast<int>(p), triangle, k.shift[e]});
-      if (work.b_pieces[p].face == cell.inner_face) out.through = true;
-    }
+    const bool reached =
+        cut_facet(grain, pose, patch, facet, k.triangle[e], k.shift[e], framed, work, out);
+    k.wake[e] = reached ? kReached : 0;
+    framed |= reached;
   }
   return out.moments.volume > 0;
 }
@@ -131,21 +158,21 @@ bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
   const int g = k.grain[i];
   const ConvexView grain = shapes.part(b.shape[g], k.part[i]).core;
   const Pose pose{b.R[g], b.x[g]};
-  static thread_local ClippedCells cells;
+  static thread_local FacetOverlaps cut;
   static thread_local std::vector<double> share;  // of the surface's area, per nodal force
   std::vector<std::pair<int, Vec3>>& nodal = k.nodal[i];
   nodal.clear();
   share.clear();
-  const bool touches = clip_cells(grain, pose, patch, travel[g], work, k, i, cells);
-  if (!touches || cells.pieces.empty()) {
+  const bool touches = cut_facets(grain, pose, patch, travel[g], work, k, i, cut);
+  if (!touches || cut.pieces.empty()) {
     release(k, i);
-    return !cells.through && cells.moments.volume < 1e-3 * shapes.shape(b.shape[g]).volume;
+    return !cut.through && cut.moments.volume < 1e-3 * shapes.shape(b.shape[g]).volume;
   }
-  const std::vector<SurfacePiece>& pieces = cells.pieces;
-  const Mat3& axes = cells.frame.axes;
+  const std::vector<SurfacePiece>& pieces = cut.pieces;
+  const Mat3& axes = cut.frame.axes;
 
   const PairMaterial& material = materials(b.material[g], patch.material);
-  OverlapShape shape = make_shape(cells.moments, work);
+  OverlapShape shape = make_shape(cut.moments, work);
   shape.area.setZero();  // minus that of the surface inside the grain
   for (const SurfacePiece& s : pieces) shape.area -= work.b_pieces[s.piece].area;
   const NormalResponse response = Law()(shape, material);
@@ -157,7 +184,7 @@ bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
     const auto& t = patch.triangle[s.triangle];
     Vec3 corner[3];
     for (int j = 0; j < 3; ++j)
-      corner[j] = axes.transpose() * (patch.node[t[j]] + s.shift - cells.frame.origin);
+      corner[j] = axes.transpose() * (patch.node[t[j]] + s.shift - cut.frame.origin);
     const NodalForces f = nodal_pressure(work, work.b_pieces[s.piece], shape, response, corner);
     for (int j = 0; j < 3; ++j) {
       nodal.push_back({t[j], -(axes * f.f[j])});
@@ -213,7 +240,7 @@ bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
   k.depth[i] = shape.depth;
   k.stiffness[i] = response.stiffness;
   k.tilt_stiffness[i] = tilt_stiffness(shape, response.stiffness);
-  return !cells.through;
+  return !cut.through;
 }
 
 template <class Law, bool friction>

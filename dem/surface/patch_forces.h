@@ -1,8 +1,9 @@
 // Contact of grains with a deforming surface: one contact per convex part of a grain and patch.
 // Plain polyhedra here; spheres and dilated polyhedra in surface/round_patch.h.
 //
-// The grain is clipped against each shell cell (tetrahedron) it reaches with the same kernel as
-// grain on grain; the moments are summed; the law is evaluated once; each surface node gets
+// The grain is cut with what lies behind each facet it reaches (surface/facet_cut.h; where that
+// does not do, with the facet's three shell cells, tetrahedra, by the same kernel as grain on
+// grain); the moments are summed; the law is evaluated once; each surface node gets
 //   f_i = -int p N_i n dA   over the clipped outer pieces (N_i linear on the triangle),
 // the exact gradient of the stored energy with respect to the node. The grain gets the opposite
 // resultant and moment of these nodal forces, to round-off. Friction acts at the centroid of the
@@ -22,14 +23,13 @@
 namespace trackbed::dem {
 
 struct PatchContacts {
-  // Candidates, from the last search: contact k is part[k] of grain[k] with cells [first[k],
-  // first[k+1]). Plain polyhedra first, from `round` on spheres and dilated polyhedra; these keep
-  // only the first cell of each triangle.
+  // Candidates, from the last search: contact k is part[k] of grain[k] with triangles [first[k],
+  // first[k+1]). Plain polyhedra first, from `round` on spheres and dilated polyhedra.
   std::vector<int> grain, part, first;
   int round = 0;
-  std::vector<int> cell;     ///< 3 triangle + (0, 1, 2)
-  std::vector<Vec3> shift;   ///< periodic image of the cell [m]
-  std::vector<Vec3> axis;    ///< separating axis, grain to cell, as in Pairs
+  std::vector<int> triangle;
+  std::vector<Vec3> shift;   ///< periodic image of the triangle [m]
+  std::vector<Vec3> axis;    ///< separating axis, grain to facet, as in Pairs
   std::vector<double> wake;  ///< apart until travel[grain] + node_travel passes it [m]
   double node_travel = 0;    ///< sum of the largest node motion of each step [m]
   double searched_at = 0;    ///< node_travel of the last search [m]
@@ -51,10 +51,10 @@ struct PatchContacts {
   int size() const { return static_cast<int>(grain.size()); }
 };
 
-/// The arrays with one value per cell entry, and those with one per contact.
+/// The arrays with one value per triangle entry, and those with one per contact.
 template <class F>
-void for_each_cell_array(PatchContacts& p, F&& f) {
-  f("cell", p.cell), f("shift", p.shift), f("axis", p.axis), f("wake", p.wake);
+void for_each_triangle_array(PatchContacts& p, F&& f) {
+  f("triangle", p.triangle), f("shift", p.shift), f("axis", p.axis), f("wake", p.wake);
 }
 template <class F>
 void for_each_contact_array(PatchContacts& p, F&& f) {
@@ -70,12 +70,12 @@ void for_each_contact_array(PatchContacts& p, F&& f) {
 template <class F>
 void for_each_array(PatchContacts& p, F&& f) {
   f("first", p.first);
-  for_each_cell_array(p, f);
+  for_each_triangle_array(p, f);
   for_each_contact_array(p, f);
 }
 
-/// Searches the cells near each grain (boxes grown by `reach` [m]); history of contacts that stay
-/// is kept, touching ones always stay.
+/// Searches the triangles near each grain (boxes grown by `reach` [m]); history of contacts that
+/// stay is kept, touching ones always stay.
 void search_patch(const Bodies&, const ShapeTable&, const SurfacePatch&, const StepContext&,
                   double reach, PatchContacts&);
 

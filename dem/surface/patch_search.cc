@@ -7,7 +7,6 @@
 
 #include "dem/contact/part_pairs.h"
 #include "dem/surface/patch_forces.h"
-#include "dem/surface/shell_cell.h"
 
 namespace trackbed::dem {
 namespace {
@@ -30,19 +29,19 @@ Box part_box(const Bodies& b, const ShapeTable& shapes, int i, int part, double 
   return box;
 }
 
-// Images of a cell that may meet the box: none beside itself where nothing is periodic.
+// Images of a box that may meet the grain's: none beside itself where nothing is periodic.
 template <class F>
-void for_each_image(const Box& cell, const Box& grain, const Vec3& period, F&& f) {
+void for_each_image(const Box& box, const Box& grain, const Vec3& period, F&& f) {
   int least[3] = {0, 0, 0}, most[3] = {0, 0, 0};
   for (int k = 0; k < 3; ++k)
     if (period[k] > 0) {
-      least[k] = static_cast<int>(std::ceil((grain.low[k] - cell.high[k]) / period[k]));
-      most[k] = static_cast<int>(std::floor((grain.high[k] - cell.low[k]) / period[k]));
+      least[k] = static_cast<int>(std::ceil((grain.low[k] - box.high[k]) / period[k]));
+      most[k] = static_cast<int>(std::floor((grain.high[k] - box.low[k]) / period[k]));
     }
   for (int i = least[0]; i <= most[0]; ++i)
     for (int j = least[1]; j <= most[1]; ++j) {
       const Vec3 shift(i * period.x(), j * period.y(), 0);
-      if (cell.meets(grain, shift)) f(shift);
+      if (box.meets(grain, shift)) f(shift);
     }
 }
 
@@ -52,29 +51,32 @@ class TriangleFinder {
  public:
   explicit TriangleFinder(const SurfacePatch& patch) {
     const int triangles = static_cast<int>(patch.triangle.size());
-    cells_.resize(3 * triangles);
-    for (int k = 0; k < 3 * triangles; ++k) {
-      for (const Vec3& p : cell_corners(patch, k)) cells_[k].include(p);
-      whole_.include(cells_[k].low), whole_.include(cells_[k].high);
+    for (int t = 0; t < triangles; ++t) {
+      Box box;
+      for (const int node : patch.triangle[t]) {
+        box.include(patch.node[node]);
+        box.include(patch.node[node] + patch.inset[node]);
+      }
+      whole_.include(box.low), whole_.include(box.high);
+      triangles_.push_back(box);
     }
     (whole_.high - whole_.low).maxCoeff(&along_);
     for (int t = 0; t < triangles; ++t) {
-      Box box;
-      for (int c = 3 * t; c < 3 * t + 3; ++c)
-        box.include(cells_[c].low), box.include(cells_[c].high);
+      const Box& box = triangles_[t];
       sorted_.push_back({box.low[along_], t});
       widest_ = std::max(widest_, box.high[along_] - box.low[along_]);
-      triangles_.push_back(box);
     }
     std::sort(sorted_.begin(), sorted_.end());
   }
 
   struct Hit {
-    int cell, image;
-    bool operator<(const Hit& o) const { return cell != o.cell ? cell < o.cell : image < o.image; }
+    int triangle, image;
+    bool operator<(const Hit& o) const {
+      return triangle != o.triangle ? triangle < o.triangle : image < o.image;
+    }
   };
 
-  /// Cells that meet the grain's box, in rising order, and the images they are in.
+  /// Triangles that meet the grain's box, in rising order, and the images they are in.
   void find(const Box& grain, const Vec3& period, std::vector<Hit>& hits,
             std::vector<Vec3>& images) const {
     hits.clear();
@@ -84,10 +86,8 @@ class TriangleFinder {
                    high = grain.high[along_] - shift[along_];
       for (auto s = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(low, -1));
            s != sorted_.end() && s->first <= high; ++s) {
-        if (!triangles_[s->second].meets(grain, shift)) continue;
-        for (int cell = 3 * s->second; cell < 3 * s->second + 3; ++cell)
-          if (cells_[cell].meets(grain, shift))
-            hits.push_back({cell, static_cast<int>(images.size())});
+        if (triangles_[s->second].meets(grain, shift))
+          hits.push_back({s->second, static_cast<int>(images.size())});
       }
       images.push_back(shift);
     });
@@ -95,7 +95,7 @@ class TriangleFinder {
   }
 
  private:
-  std::vector<Box> cells_, triangles_;
+  std::vector<Box> triangles_;
   Box whole_;
   int along_ = 0;
   double widest_ = 0;
@@ -110,14 +110,14 @@ void gather(std::vector<T>& v, const std::vector<int>& order) {
   v.swap(picked);
 }
 
-// Entry of a cell's image in a contact of the last search, -1 if it is new.
-int find_entry(const PatchContacts& old, int contact, int cell, const Vec3& shift) {
+// Entry of a triangle's image in a contact of the last search, -1 if it is new.
+int find_entry(const PatchContacts& old, int contact, int triangle, const Vec3& shift) {
   if (contact < 0) return -1;
-  const auto begin = old.cell.begin();
+  const auto begin = old.triangle.begin();
   const auto end = begin + old.first[contact + 1];
-  for (auto c = std::lower_bound(begin + old.first[contact], end, cell); c != end && *c == cell;
-       ++c)
-    if (old.shift[c - begin] == shift) return static_cast<int>(c - begin);
+  for (auto t = std::lower_bound(begin + old.first[contact], end, triangle);
+       t != end && *t == triangle; ++t)
+    if (old.shift[t - begin] == shift) return static_cast<int>(t - begin);
   return -1;
 }
 
@@ -137,20 +137,16 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
   std::vector<Vec3> images;
   const auto search = [&](int i, int part, bool round) {
     finder.find(part_box(b, shapes, i, part, reach), c.period, hits, images);
-    if (round)  // the triangle is all they need
-      hits.erase(std::remove_if(hits.begin(), hits.end(),
-                                [](const auto& hit) { return hit.cell % 3 != 0; }),
-                 hits.end());
     if (hits.empty()) return;
     const auto found = old_contact.find({i, part});
     const int before = found == old_contact.end() ? -1 : found->second;
     contacts.grain.push_back(i);
     contacts.part.push_back(part);
-    contacts.first.push_back(static_cast<int>(contacts.cell.size()));
+    contacts.first.push_back(static_cast<int>(contacts.triangle.size()));
     for (const auto& hit : hits) {
       const Vec3& shift = images[hit.image];
-      const int entry = find_entry(old, before, hit.cell, shift);
-      contacts.cell.push_back(hit.cell);
+      const int entry = find_entry(old, before, hit.triangle, shift);
+      contacts.triangle.push_back(hit.triangle);
       contacts.shift.push_back(shift);
       contacts.axis.push_back(entry < 0 ? Vec3(Vec3::Zero()) : old.axis[entry]);
       contacts.wake.push_back(entry < 0 || round ? 0 : old.wake[entry]);
@@ -183,7 +179,7 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
         if ((shapes.part(b.shape[i], part).kind != Core::plain) == round) search(i, part, round);
     if (!round) contacts.round = contacts.size();
   }
-  contacts.first.push_back(static_cast<int>(contacts.cell.size()));
+  contacts.first.push_back(static_cast<int>(contacts.triangle.size()));
   contacts.nodal.assign(contacts.size(), {});
 }
 
@@ -204,7 +200,7 @@ void renumber_grains(PatchContacts& contacts, const std::vector<int>& now) {
     for (int e = contacts.first[k]; e < contacts.first[k + 1]; ++e) entries.push_back(e);
   }
   first.push_back(static_cast<int>(entries.size()));
-  for_each_cell_array(contacts, [&](const char*, auto& v) { gather(v, entries); });
+  for_each_triangle_array(contacts, [&](const char*, auto& v) { gather(v, entries); });
   for_each_contact_array(contacts, [&](const char*, auto& v) { gather(v, kept); });
   gather(contacts.nodal, kept);
   contacts.first = first;

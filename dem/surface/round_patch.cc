@@ -78,10 +78,10 @@ SurfaceBalls sphere_on(const NearestPoint& p, const Vec3& centre, double r, doub
   return out;
 }
 
-void try_core(const PartView& part, const Mat3& R, const SurfacePatch& patch, int cell,
+void try_core(const PartView& part, const Mat3& R, const SurfacePatch& patch, int triangle,
               const Vec3& offset, const Corners& t, const Vec3& start, SurfaceBalls& best) {
   ShellCell solid;
-  make_shell_cell(patch, cell, offset, solid);
+  make_shell_cell(patch, 3 * triangle, offset, solid);
   PartView flat;
   flat.core = solid.view;
   Vec3 axis = -t.normal();
@@ -92,7 +92,7 @@ void try_core(const PartView& part, const Mat3& R, const SurfacePatch& patch, in
   best.reach = d.ra;
   best.n = d.n;
   best.y = closest_on_triangle(d.y, t.p[0], t.p[1], t.p[2], best.weight);
-  best.triangle = cell / 3;
+  best.triangle = triangle;
 }
 
 /// False: deeper in the surface than its shell reaches, or with its core.
@@ -113,12 +113,12 @@ bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMater
   const Vec3 centre = point ? Vec3(b.R[g] * part.centre) : Vec3(Vec3::Zero());
   for (int e = first; e < k.first[i + 1]; ++e) {
     const Vec3 offset = k.shift[e] - b.x[g];
-    const int triangle = k.cell[e] / 3;
+    const int triangle = k.triangle[e];
     const Corners t(patch, triangle, offset);
     if (point)
       try_point(centre, t, triangle, nearest);
     else
-      try_core(part, b.R[g], patch, k.cell[e], offset, t, k.arm[i], best);
+      try_core(part, b.R[g], patch, triangle, offset, t, k.arm[i], best);
   }
   if (point) best = sphere_on(nearest, centre, part.radius, patch.shell_depth);
   std::vector<std::pair<int, Vec3>>& nodal = k.nodal[i];

@@ -24,7 +24,7 @@ int main() {
   VoronoiParameters parameters;
   parameters.count = 100;
   const auto grains = voronoi_grains(parameters);
-  std::printf("elements a grain   cells a contact   evaluation us/grain   search us/grain\n");
+  std::printf("elements a grain   facets a contact  evaluation us/grain   search us/grain\n");
   for (const double per_grain : {.25, .5, 1., 2., 4., 8.}) {
     const int n = static_cast<int>(15 * per_grain);
     PatchScene s(flat_mesh(n, n, -7.5, 7.5, -7.5, 7.5), .1, 1, 1e7, .5);
@@ -45,7 +45,7 @@ int main() {
     const double search = seconds(
         5, [&] { search_patch(s.bodies, s.shapes, s.patch, s.context, s.skin, s.contacts); });
     std::printf("%16.2f %17.1f %21.3f %17.2f\n", per_grain,
-                double(s.contacts.cell.size()) / s.contacts.size(), 1e6 * evaluation / touching,
+                double(s.contacts.triangle.size()) / s.contacts.size(), 1e6 * evaluation / touching,
                 1e6 * search / 100);
   }
 }

@@ -299,7 +299,7 @@ TEST(Search, keeps_history) {
   const PatchContacts before = s.contacts;
   search_patch(s.bodies, s.shapes, s.patch, s.context, .3, s.contacts);
   ASSERT_EQ(s.contacts.size(), 3);
-  ASSERT_GT(s.contacts.cell.size(), before.cell.size());
+  ASSERT_GT(s.contacts.triangle.size(), before.triangle.size());
   for (int k = 0; k < 3; ++k) {
     EXPECT_GT(before.friction[k].norm(), 0);
     EXPECT_EQ(s.contacts.friction[k], before.friction[k]);
