@@ -15,6 +15,7 @@ struct Knob {
   std::string quantity;  ///< what it is about: a quantity of `trackbed cost`
   std::string meaning;   ///< which error it makes
   std::vector<std::string> rungs;
+  std::vector<std::string> also;  ///< "Section/Key=value" that the last rung cannot do without
   double factor = 1;
   int cheaper = 0, finer = 0;
   bool whole = false;  ///< the numbers are counts: rounded, at least 1

@@ -16,6 +16,7 @@ coupling_test(effects_off hard)
 file(GLOB hard_case_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/hard/cases/*.cc)
 add_library(trackbed_hard_cases STATIC ${hard_case_files})
 target_include_directories(trackbed_hard_cases PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/unit
+                           ${CMAKE_CURRENT_SOURCE_DIR}/verification
                            ${CMAKE_CURRENT_SOURCE_DIR}/hard/cases)
 target_link_libraries(trackbed_hard_cases PUBLIC trackbed_coupling)
 trackbed_test(hard_cases hard trackbed_hard_cases)

@@ -23,6 +23,13 @@ std::string path_cost(const Scene& s, const Plan&) {
          " frictions, then a search between two of them";
 }
 
+/// Beds at rest within Packing/Unbalanced force take longer than a bed that is only tamped.
+std::vector<std::string> path_time(const Scene& s) {
+  constexpr double enough = 3;  // [s]
+  if (s.packing.settle_time >= enough) return {};
+  return {"Packing/Settle time=" + shortest(enough)};
+}
+
 std::string copies_cost(const Scene& s, const Plan&) {
   return std::to_string(s.packing.layers * s.packing.bays) +
          " copies of a sample, whose seams settle; packs only that many times fewer grains";
@@ -60,7 +67,9 @@ const std::vector<EffectKind>& effect_kinds() {
        [](const Scene& s) { return s.subgrade.model != "rigid"; },
        [](const Scene&, const Plan& p) { return text_of(p.subgrade); }},
       {"inertia of the subgrade", "Subgrade/Inertia", "off", "on",
-       "waves and their energy; off: a static solve for each of an exchange's iterations",
+       "waves and their energy; off: some 15 rounds a step of its contacts and a static solve, "
+       "which "
+       "takes longer where inertia needs no solve",
        [](const Scene& s) { return s.subgrade.model != "rigid" && s.subgrade.inertia != "off"; },
        nullptr},
       {"modes of the sleeper", "Sleeper/Reduction", "none", "condensed",
@@ -116,7 +125,7 @@ const std::vector<EffectKind>& effect_kinds() {
        tamping_cost},
       {"quasi-vibration", "Packing/Method", "tamping", "quasi_vibration",
        "beds at rest for friction after friction",
-       [](const Scene& s) { return s.packing.method == "quasi_vibration"; }, path_cost},
+       [](const Scene& s) { return s.packing.method == "quasi_vibration"; }, path_cost, path_time},
       {"layers of one sample", "Packing/Layers", "1", "2", "seams that settle; less to pack",
        [](const Scene& s) { return s.packing.layers * s.packing.bays > 1; }, copies_cost},
       {"zones", "Zones/Use", "false", "true", "fewer and simpler grains outside",

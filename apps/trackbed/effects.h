@@ -15,6 +15,8 @@ struct EffectKind {
   std::string adds;     ///< to a step, in words
   bool (*is_on)(const Scene&);
   std::string (*cost)(const Scene&, const Plan&);  ///< measured for a scene; null = `adds`
+  /// Further "Section/Key=value" that a scene needs when the effect is switched on; null: none.
+  std::vector<std::string> (*also)(const Scene&) = nullptr;
 };
 
 const std::vector<EffectKind>& effect_kinds();

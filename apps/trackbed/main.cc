@@ -157,7 +157,10 @@ int run_program(int argc, char** argv) {
   command = app.add_subcommand("cost", "accuracy against time: the ladder of every knob");
   add_scene(*command, cost.scene, cost.set);
   add_output(*command, cost.output, "results/<scene>_cost");
-  command->add_option("--knobs", cost.knobs, "names, comma-separated [all that matter]")
+  command
+      ->add_option(
+          "--knobs", cost.knobs,
+          "names of knobs, or of effects after --effects, comma-separated [all that matter]")
       ->delimiter(',')
       ->type_name("A,B");
   command->add_option("--pairs", cost.pairs, "every combination of two knobs' rungs")
@@ -166,9 +169,8 @@ int run_program(int argc, char** argv) {
   command->add_option("--tolerance", cost.tolerances, "recommend the cheapest scene within it")
       ->delimiter(',')
       ->type_name("QUANTITY=5%");
-  command
-      ->add_flag("--effects", cost.effects, "instead of knobs: what each effect costs and changes")
-      ->excludes("--knobs");
+  command->add_flag("--effects", cost.effects,
+                    "instead of knobs: what each effect costs and changes");
   command->add_option("--seeds", cost.seeds, "packings, each of another seed [3]")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");

@@ -26,7 +26,9 @@ namespace {
 // Measured on settled beds with one thread (tests/benchmarks).
 constexpr double seconds_per_grain_step = 1.5e-6;
 constexpr double seconds_per_surface_contact = 1.5e-6;  // grain on a deforming surface
-constexpr double parallel_share = 0.9;                  // of the work on grains
+constexpr double static_rounds = 15;                    // a step, of an exchange without inertia
+constexpr double iterated_rounds = 3;
+constexpr double parallel_share = 0.9;  // of the work on grains
 constexpr double bytes_per_grain = 12e3;
 constexpr double bytes_of_program = 150e6;
 // Stages end when the bed is at rest, mostly long before their limit [s].
@@ -151,6 +153,11 @@ Plan make_plan(const Scene& scene, int threads) {
     plan.subgrade = measure(*make_subgrade_structure(scene, layout), dt);
     area += (layout.high - layout.low).head<2>().prod();
   }
+  // Evaluations of surfaces and structures a step: an exchange that is iterated.
+  const bool held = scene.subgrade.model != "rigid" && scene.subgrade.inertia == "off";
+  const double rounds = held                                    ? static_rounds
+                        : scene.numerics.exchange == "iterated" ? iterated_rounds
+                                                                : 1;
   // Of a stage in a bed of `finer` times as many grains.
   const auto seconds = [&](const PlanStage& stage, double finer) {
     const double bed = finer * plan.grains;
@@ -160,9 +167,9 @@ Plan make_plan(const Scene& scene, int threads) {
     // As many threads as a step uses (stages.cc).
     const double workers = std::min<double>(threads, 1 + std::floor(count / 100));
     double step = seconds_per_grain_step * count;
-    if (stage.loads) step += seconds_per_surface_contact * area / (d * d);
+    if (stage.loads) step += rounds * seconds_per_surface_contact * area / (d * d);
     step *= 1 - parallel_share + parallel_share / std::max(1.0, workers);
-    if (stage.loads) step += plan.sleeper.seconds + plan.subgrade.seconds;
+    if (stage.loads) step += rounds * (plan.sleeper.seconds + plan.subgrade.seconds);
     return stage.steps * step;
   };
   for (auto& stage : plan.stages) {

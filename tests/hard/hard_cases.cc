@@ -1,11 +1,13 @@
 // hard_cases DIR [--slow] [--only WORDS]: every hard case over shapes, laws, step shares and
-// schedules; DIR/hard_cases.csv and the stability map DIR/map.csv. Exit 1 if a promise is broken.
+// schedules; DIR/hard_cases.csv, what cases are drawn by in DIR/curves.csv, and the stability map
+// DIR/map.csv. Exit 1 if a promise is broken.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "cases/hard_case.h"
 #include "two_masses.h"
@@ -47,6 +49,25 @@ int run_cases(const std::string& file, bool slow, const std::string& only) {
     broken += failed;
   }
   return broken;
+}
+
+// What a case is drawn by: the first shape under each law.
+void write_curves(const std::string& file, bool slow, const std::string& only) {
+  std::ofstream out(file);
+  out << "case,shape,law,schedule,x_name,y_name,log_x,log_y,x,y\n";
+  out.precision(10);
+  for (const Case& c : all_cases()) {
+    if (!c.curve || (c.slow && !slow) || c.name.find(only) == std::string::npos) continue;
+    std::set<std::string> drawn;
+    for (const Setting& s : settings(c)) {
+      if (!drawn.insert(s.law + s.schedule).second) continue;
+      const Curve curve = c.curve(s);
+      for (const auto& [x, y] : curve.points)
+        out << quoted(c.name) << ',' << s.shape << ',' << s.law << ',' << s.schedule << ','
+            << quoted(curve.x) << ',' << quoted(curve.y) << ',' << curve.log_x << ',' << curve.log_y
+            << ',' << x << ',' << y << '\n';
+    }
+  }
 }
 
 // Growth per step of two masses: half of omega dt, contact over ground stiffness, sub-cycling.
@@ -92,6 +113,7 @@ int main(int argc, char** argv) {
   }
   std::filesystem::create_directories(folder);
   const int broken = trackbed::hard::run_cases(folder + "/hard_cases.csv", slow, only);
+  trackbed::hard::write_curves(folder + "/curves.csv", slow, only);
   trackbed::hard::write_map(folder + "/map.csv");
   std::printf("%d promises broken; %s/hard_cases.csv, %s/map.csv\n", broken, folder.c_str(),
               folder.c_str());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "dem/grain/random.h"
 #include "dem/motion/energy.h"
 #include "dem/surface/patch.h"
 #include "dem/surface/patch_forces.h"
@@ -26,6 +27,18 @@ inline Mesh flat_mesh(int nx, int ny, double low_x, double high_x, double low_y,
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
       m.quads.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
+  return m;
+}
+
+/// A level mesh over [-1, 1], nodes inside pushed about in the plane: a path crosses edges, nodes
+/// and diagonals.
+inline Mesh uneven_mesh(int nx, int ny) {
+  Mesh m = flat_mesh(nx, ny, -1, 1, -1, 1);
+  Random random(2);
+  const double most = .2 * 2 / std::max(nx, ny);
+  for (Vec3& p : m.nodes)
+    if (std::abs(p.x()) < .9 && std::abs(p.y()) < .9)
+      p += Vec3(random.uniform(-most, most), random.uniform(-most, most), 0);
   return m;
 }
 

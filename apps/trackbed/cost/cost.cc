@@ -49,19 +49,26 @@ double sum_expected(const std::vector<Job>& jobs) {
 }
 
 void print_plan(const Study& study, int at_once) {
-  std::printf("%-18s %-20s %10s %14s %14s\n", "knob", "value", "runs", "packing [s]",
+  int knob = 4, value = 5;
+  for (const Variant& v : study.variants) {
+    knob = std::max(knob, static_cast<int>(v.knob.size()));
+    value = std::max(value, static_cast<int>(v.value.size()));
+  }
+  std::printf("%-*s  %-*s %6s %12s %12s\n", knob, "knob", value, "value", "runs", "packing [s]",
               "loading [s]");
   for (const Variant& v : study.variants) {
+    std::printf("%-*s  %-*s ", knob, v.knob.c_str(), value, v.value.c_str());
     if (!v.left_out.empty()) {
-      std::printf("%-18s %-20s left out: %s\n", v.knob.c_str(), v.value.c_str(),
-                  v.left_out.c_str());
+      std::printf("left out: %s\n", v.left_out.c_str());
       continue;
     }
     const Job& job = study.jobs[v.jobs[0]];
     const bool shared = v.own && v.knob != "own";
-    std::printf("%-18s %-20s %10zu %14.3g %14.3g%s\n", v.knob.c_str(), v.value.c_str(),
-                shared ? 0 : v.jobs.size(), study.jobs[job.packing].expected, job.expected,
-                shared ? "  the scene's own" : "");
+    std::printf("%6zu %12.3g %12.3g%s", shared ? 0 : v.jobs.size(),
+                study.jobs[job.packing].expected, job.expected, shared ? "  the scene's own" : "");
+    if (v.set.size() > 1 && v.knob.find(':') == std::string::npos)
+      for (std::size_t k = 1; k < v.set.size(); ++k) std::printf("  with %s", v.set[k].c_str());
+    std::printf("\n");
   }
   const auto packings = std::count_if(study.jobs.begin(), study.jobs.end(),
                                       [](const Job& job) { return job.packing < 0; });

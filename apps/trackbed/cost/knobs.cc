@@ -85,6 +85,7 @@ std::vector<Knob> effect_knobs(const Scene& scene) {
     knob.path = kind.path;
     knob.quantity = "settlement";
     knob.meaning = kind.adds;
+    if (kind.also && !kind.is_on(scene)) knob.also = kind.also(scene);
     knob.rungs = {kind.off, kind.is_on(scene) ? scene.values.at(kind.path) : kind.on};
     knobs.push_back(knob);
   }
@@ -125,9 +126,9 @@ bool matters_in(const Knob& knob, const Scene& scene) {
   return (scene.values.at(knob.needs.substr(0, at)) == wanted) != differs;
 }
 
-Knob knob_by_name(const std::string& name) {
+Knob knob_by_name(const std::string& name, const std::vector<Knob>& among) {
   std::vector<std::string> names;
-  for (const Knob& knob : all_knobs()) {
+  for (const Knob& knob : among) {
     if (knob.name == name) return knob;
     names.push_back(knob.name);
   }

@@ -31,6 +31,6 @@ std::vector<Rung> ladder(const Knob&, const Scene&);
 bool matters_in(const Knob&, const Scene&);
 
 /// By name. Throws InputError naming the nearest one.
-Knob knob_by_name(const std::string& name);
+Knob knob_by_name(const std::string& name, const std::vector<Knob>& among = all_knobs());
 
 }  // namespace trackbed::apps

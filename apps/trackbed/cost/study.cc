@@ -26,15 +26,16 @@ std::string folder_of(const Variant& v, int seed) {
   return "runs/" + name + "/seed_" + std::to_string(seed);
 }
 
-std::vector<Knob> chosen_knobs(const std::vector<std::string>& names, const Scene& scene) {
+std::vector<Knob> chosen_knobs(const std::vector<std::string>& names, const Scene& scene,
+                               const std::vector<Knob>& all) {
   std::vector<Knob> knobs;
   if (names.empty()) {
-    for (const Knob& knob : all_knobs())
+    for (const Knob& knob : all)
       if (matters_in(knob, scene)) knobs.push_back(knob);
     return knobs;
   }
   for (const auto& name : names) {
-    const Knob knob = knob_by_name(name);
+    const Knob knob = knob_by_name(name, all);
     if (!matters_in(knob, scene))
       throw InputError("--knobs " + name + ": changes nothing in this scene; needs " + knob.needs);
     knobs.push_back(knob);
@@ -44,9 +45,12 @@ std::vector<Knob> chosen_knobs(const std::vector<std::string>& names, const Scen
 
 void add_ladder(Study& study, const Knob& knob, const Scene& scene) {
   int index = 0;
-  for (const Rung& rung : ladder(knob, scene))
-    study.variants.push_back(
-        {knob.name, rung.value, index++, rung.h, rung.own, {knob.path + "=" + rung.value}, {}, {}});
+  for (const Rung& rung : ladder(knob, scene)) {
+    std::vector<std::string> set{knob.path + "=" + rung.value};
+    if (!knob.rungs.empty() && rung.value == knob.rungs.back())
+      set.insert(set.end(), knob.also.begin(), knob.also.end());
+    study.variants.push_back({knob.name, rung.value, index++, rung.h, rung.own, set, {}, {}});
+  }
 }
 
 void add_pair(Study& study, const std::string& pair, const Scene& scene) {
@@ -101,7 +105,7 @@ Study make_study(const std::string& file, const std::vector<std::string>& set,
                      ": cost compares what load cycles do; it needs Test/Type = none");
   Study study{file,  folder,
               set,   scene.grains.seed,
-              seeds, effects ? effect_knobs(scene) : chosen_knobs(knobs, scene),
+              seeds, chosen_knobs(knobs, scene, effects ? effect_knobs(scene) : all_knobs()),
               {},    {}};
   study.variants.push_back({"own", "", 0, 0, true, {}, {}, {}});
   // What differs after a change of about one bit is noise, not accuracy.

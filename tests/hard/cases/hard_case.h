@@ -1,6 +1,7 @@
 // Hard cases: each is a function of shape, law, step and exchange schedule that measures one number
 // against its bound. gtest runs one setting of each, the command hard_cases all of them.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,26 @@ struct Measured {
 };
 
 /// What of a setting a case depends on.
-/// `all_shapes`: polyhedra under the pair laws and round grains under theirs.
-enum class Over { flat_shapes, shapes, round_shapes, all_shapes, schedules };
+/// `all_shapes`: polyhedra under the pair laws and round grains under theirs; `level_shapes`: of
+/// these the ones that lie flat or on a ball; `pair_laws`: the laws of polyhedra, shapes of its
+/// own; `once`: nothing.
+enum class Over {
+  flat_shapes,
+  shapes,
+  round_shapes,
+  all_shapes,
+  level_shapes,
+  pair_laws,
+  schedules,
+  once
+};
+
+/// A picture of the case: what it measures over what it runs through.
+struct Curve {
+  std::string x, y;  ///< names and units of the axes
+  bool log_x, log_y;
+  std::vector<std::array<double, 2>> points;
+};
 
 struct Case {
   std::string name, must, unit, damping;
@@ -31,13 +50,19 @@ struct Case {
   bool shares;  ///< does the step matter?
   bool slow;
   Measured (*run)(const Setting&);
+  Curve (*curve)(const Setting&) = nullptr;
 };
 
 const std::vector<Case>& impact_cases();
+const std::vector<Case>& edge_cases();
 const std::vector<Case>& rest_cases();
 const std::vector<Case>& round_cases();
 const std::vector<Case>& step_cases();
+const std::vector<Case>& solid_cases();
+const std::vector<Case>& facet_cases();
+const std::vector<Case>& saved_cases();
 const std::vector<Case>& coupled_cases();
+const std::vector<Case>& structure_cases();
 
 /// All of them, in the order of the page.
 std::vector<Case> all_cases();

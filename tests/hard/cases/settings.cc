@@ -23,12 +23,14 @@ dem::Polyhedron solid(const std::string& name, double size) {
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   for (const auto& list :
-       {impact_cases(), rest_cases(), round_cases(), step_cases(), coupled_cases()})
+       {edge_cases(), rest_cases(), round_cases(), impact_cases(), solid_cases(), facet_cases(),
+        step_cases(), saved_cases(), coupled_cases(), structure_cases()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 
 std::vector<Setting> settings(const Case& c) {
+  if (c.over == Over::once) return {{"", "", .05, "", 1}};
   std::vector<Setting> list;
   const std::vector<double> shares =
       c.shares ? std::vector<double>{.05, .2, .5, .9} : std::vector<double>{.05};
@@ -42,6 +44,11 @@ std::vector<Setting> settings(const Case& c) {
     }
     return list;
   }
+  if (c.over == Over::pair_laws) {
+    for (const auto& law : dem::pair_law_names())
+      for (const double share : shares) list.push_back({"", law, share, "", 1});
+    return list;
+  }
   std::vector<std::string> shapes;
   if (c.over != Over::round_shapes) shapes = {"cube", "plate", "needle"};
   if (c.over == Over::shapes || c.over == Over::all_shapes)
@@ -49,7 +56,7 @@ std::vector<Setting> settings(const Case& c) {
   for (const auto& shape : shapes)
     for (const auto& law : dem::pair_law_names())
       for (const double share : shares) list.push_back({shape, law, share, "", 1});
-  if (c.over == Over::round_shapes || c.over == Over::all_shapes)
+  if (c.over == Over::round_shapes || c.over == Over::all_shapes || c.over == Over::level_shapes)
     for (const char* shape : {"sphere", "clump", "dilated"})
       for (const auto& law : dem::round_law_names())
         for (const double share : shares) list.push_back({shape, law, share, "", 1});

@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "fem/elastic_body.h"
@@ -48,9 +49,15 @@ inline std::string cylinder_mesh(const std::string& file, int along, int around)
   return file;
 }
 
-/// u_r inside over the exact 5.062275e-3; writes its mesh into `file`.
-inline double cylinder_ratio(const std::string& file, int order, Element element, int along,
-                             int around) {
+struct Cylinder {
+  double ratio;         ///< u_r inside over the exact 5.062275e-3
+  double checkerboard;  ///< largest difference of neighbouring cells' mean dilatation over the
+                        ///< exact, even one; Q1 only
+};
+
+/// Writes its mesh into `file`.
+inline Cylinder thick_cylinder(const std::string& file, int order, Element element, int along,
+                               int around) {
   ElasticBodyParameters p;
   p.mesh.file = cylinder_mesh(file, along, around);
   p.materials = {{"soil", 1000, 0.4999, 1}};
@@ -60,7 +67,7 @@ inline double cylinder_ratio(const std::string& file, int order, Element element
                 {"y_min", Support::roller},
                 {"bottom", Support::roller},
                 {"top", Support::roller}};
-  p.contact = {"inside"};
+  p.contact = {"inside", "top"};
   ElasticBody b(p);
   const auto& s = b.surface();
   std::vector<Vec> f(s.nodes.size(), Vec{}), u, v;
@@ -71,11 +78,13 @@ inline double cylinder_ratio(const std::string& file, int order, Element element
     const bool mid_z = std::abs(x[2] - 0.5) < 0.25, mid_side = std::hypot(x[0], x[1]) < 3 - 1e-9;
     return (mid_z ? 2. : 1.) * (mid_side ? 2. : 1.) / 9;
   };
-  for (const auto& q : s.quads) {
+  for (std::size_t k = 0; k < s.quads.size(); ++k) {
+    const auto& q = s.quads[k];
     Vec a, c;
     for (int d = 0; d < 3; ++d)
       a[d] = s.nodes[q[2]][d] - s.nodes[q[0]][d], c[d] = s.nodes[q[3]][d] - s.nodes[q[1]][d];
     const Vec area{(a[1] * c[2] - a[2] * c[1]) / 2, (a[2] * c[0] - a[0] * c[2]) / 2, 0};
+    if (std::hypot(area[0], area[1]) < 1e-9) continue;  // of the top
     for (int n : q)  // outwards of the body is inwards of the hole
       for (int d = 0; d < 3; ++d) f[n][d] -= share(s.nodes[n]) * area[d];
   }
@@ -87,7 +96,35 @@ inline double cylinder_ratio(const std::string& file, int order, Element element
     work += u[i][0] * f[i][0] + u[i][1] * f[i][1];
     force += std::hypot(f[i][0], f[i][1]);
   }
-  return work / force / 5.062275e-3;
+  // Plane strain: a cell's mean dilatation is the flow through the sides of its top. By Lame it is
+  // the same everywhere, 2 (1+nu)(1-2nu)/E p a^2/(b^2-a^2).
+  const double exact = 2 * 1.4999 * 0.0002 / 1000 * 9 / 72;
+  std::map<std::pair<int, int>, double> dilatation;  // by place along the radius and around
+  for (const auto& q : s.quads) {
+    double flow = 0, area = 0, x = 0, y = 0;
+    for (int k = 0; k < 4; ++k) {
+      const int i = q[k], j = q[(k + 1) % 4];
+      const Vec &from = s.nodes[i], &to = s.nodes[j];
+      flow +=
+          0.5 * ((u[i][0] + u[j][0]) * (to[1] - from[1]) - (u[i][1] + u[j][1]) * (to[0] - from[0]));
+      area += 0.5 * (from[0] * to[1] - to[0] * from[1]);
+      x += from[0] / 4, y += from[1] / 4;
+    }
+    if (std::abs(area) < 1e-9) continue;  // of the inside
+    dilatation[{int((std::hypot(x, y) - 3) / 6 * along), int(std::atan2(y, x) / M_PI_2 * around)}] =
+        flow / area;
+  }
+  double most = 0;
+  for (const auto& [at, value] : dilatation)
+    for (const auto& other : {std::pair{at.first + 1, at.second}, {at.first, at.second + 1}})
+      if (dilatation.count(other))
+        most = std::max(most, std::abs(dilatation[other] - value) / exact);
+  return {work / force / 5.062275e-3, most};
+}
+
+inline double cylinder_ratio(const std::string& file, int order, Element element, int along,
+                             int around) {
+  return thick_cylinder(file, order, element, along, around).ratio;
 }
 
 }  // namespace trackbed::fem::known
