@@ -69,65 +69,6 @@ PlaneMoments plane_moments(const double* x, const double* y, int n) {
           xx * r - dx * dx, yy * r - dy * dy, xy * r - dx * dy};
 }
 
-bool vertex_in_face(const ConvexView& own, const Pose& own_pose, int v, const ConvexView& other,
-                    const Pose& other_pose, int face, double least, SimpleContact& c) {
-  const Star star(own, v);
-  const int edges = star.edges();
-  if (edges == 0) return false;
-  // Frame: the face's, origin at the other body's until the vertex is known.
-  const Mat3 of_face = axes_along(Vec3(other.nx[face], other.ny[face], other.nz[face]));
-  c.frame.axes = other_pose.R * of_face;
-  const Mat3 M = c.frame.axes.transpose() * own_pose.R;
-  const Point arm = times(own_pose.R, {star.at[0], star.at[1], star.at[2]});
-  const Point place = arm + point(own_pose.x - other_pose.x);
-  const Point tip = transposed_times(c.frame.axes, place);
-  const double depth = other.offset[face] - tip.z;
-  if (!(depth > kClear * least)) return false;
-
-  // Edges, eight at a time; lanes beyond the last hold something finite, not used.
-  const Eight ex = Eight::load(star.x()), ey = Eight::load(star.y()), ez = Eight::load(star.z());
-  const auto row = [&](const Mat3& A, int r, Eight x, Eight y, Eight z, double t) {
-    return fma(Eight(A(r, 0)), x, fma(Eight(A(r, 1)), y, fma(Eight(A(r, 2)), z, Eight(t))));
-  };
-  const unsigned all = (1u << edges) - 1;
-  const Eight rise = row(M, 2, ex, ey, ez, 0);
-  const double most = depth > least ? depth : least;  // the other end at or above the face
-  if ((less(rise, Eight(most)) | less_equal(rise, Eight(least))) & all) return false;
-  const Eight t = divide_where(all, Eight(depth), rise);
-  const Eight gx = t * row(M, 0, ex, ey, ez, 0), gy = t * row(M, 1, ex, ey, ez, 0);
-
-  // The crossings, and the vertex after them, in the other's frame.
-  alignas(64) double px[8], py[8], pz[8], x[8], y[8];
-  const Eight fx = gx + Eight(tip.x), fy = gy + Eight(tip.y), fz(other.offset[face]);
-  row(of_face, 0, fx, fy, fz, 0).store(px);
-  row(of_face, 1, fx, fy, fz, 0).store(py);
-  row(of_face, 2, fx, fy, fz, 0).store(pz);
-  const Point last = transposed_times(other_pose.R, place);
-  const std::uint64_t but = std::uint64_t(1) << face;
-  if (!inside(other, &last.x, &last.y, &last.z, 1, but, kClear * least)) return false;
-  if (!inside(other, px, py, pz, edges, but, 0)) return false;
-
-  // Edges run clockwise seen from outside their body, so clockwise on the face.
-  gx.store(px), gy.store(py);
-  for (int k = 0; k < edges; ++k) x[k] = px[edges - 1 - k], y[k] = py[edges - 1 - k];
-  const PlaneMoments base = plane_moments(x, y, edges);
-  if (!(base.area > 0)) return false;
-  const double V = base.area * depth * (1. / 3), j = 0.6 * V, s = 0.0375 * V;
-  const double xz = s * base.x * depth, yz = s * base.y * depth,
-               xy = j * base.xy + s * base.x * base.y;
-  c.shape.volume = V;
-  c.shape.centroid = Vec3(0.75 * base.x, 0.75 * base.y, 0.75 * depth);
-  c.shape.second_moment << j * base.xx + s * base.x * base.x, xy, xz,  //
-      xy, j * base.yy + s * base.y * base.y, yz,                       //
-      xz, yz, s * depth * depth;
-  c.shape.depth = depth;
-  c.corners = edges;
-  for (int k = 0; k < edges; ++k) c.corner[k] = Vec3(x[k], y[k], depth);
-  c.shape.area = Vec3(0, 0, base.area);
-  c.frame.origin = own_pose.x + Vec3(arm.x, arm.y, arm.z);
-  return true;
-}
-
 // An edge in world axes about its body's centre, and the two faces at it.
 struct Edge {
   Point from, along, left, right;  // the latter two normals, body frame
@@ -229,6 +170,65 @@ bool edge_on_edge(const ConvexView& a, const Pose& pa, const ConvexView& b, cons
 }
 
 }  // namespace
+
+bool vertex_in_face(const ConvexView& own, const Pose& own_pose, int v, const ConvexView& other,
+                    const Pose& other_pose, int face, double least, SimpleContact& c) {
+  const Star star(own, v);
+  const int edges = star.edges();
+  if (edges == 0) return false;
+  // Frame: the face's, origin at the other body's until the vertex is known.
+  const Mat3 of_face = axes_along(Vec3(other.nx[face], other.ny[face], other.nz[face]));
+  c.frame.axes = other_pose.R * of_face;
+  const Mat3 M = c.frame.axes.transpose() * own_pose.R;
+  const Point arm = times(own_pose.R, {star.at[0], star.at[1], star.at[2]});
+  const Point place = arm + point(own_pose.x - other_pose.x);
+  const Point tip = transposed_times(c.frame.axes, place);
+  const double depth = other.offset[face] - tip.z;
+  if (!(depth > kClear * least)) return false;
+
+  // Edges, eight at a time; lanes beyond the last hold something finite, not used.
+  const Eight ex = Eight::load(star.x()), ey = Eight::load(star.y()), ez = Eight::load(star.z());
+  const auto row = [&](const Mat3& A, int r, Eight x, Eight y, Eight z, double t) {
+    return fma(Eight(A(r, 0)), x, fma(Eight(A(r, 1)), y, fma(Eight(A(r, 2)), z, Eight(t))));
+  };
+  const unsigned all = (1u << edges) - 1;
+  const Eight rise = row(M, 2, ex, ey, ez, 0);
+  const double most = depth > least ? depth : least;  // the other end at or above the face
+  if ((less(rise, Eight(most)) | less_equal(rise, Eight(least))) & all) return false;
+  const Eight t = divide_where(all, Eight(depth), rise);
+  const Eight gx = t * row(M, 0, ex, ey, ez, 0), gy = t * row(M, 1, ex, ey, ez, 0);
+
+  // The crossings, and the vertex after them, in the other's frame.
+  alignas(64) double px[8], py[8], pz[8], x[8], y[8];
+  const Eight fx = gx + Eight(tip.x), fy = gy + Eight(tip.y), fz(other.offset[face]);
+  row(of_face, 0, fx, fy, fz, 0).store(px);
+  row(of_face, 1, fx, fy, fz, 0).store(py);
+  row(of_face, 2, fx, fy, fz, 0).store(pz);
+  const Point last = transposed_times(other_pose.R, place);
+  const std::uint64_t but = std::uint64_t(1) << face;
+  if (!inside(other, &last.x, &last.y, &last.z, 1, but, kClear * least)) return false;
+  if (!inside(other, px, py, pz, edges, but, 0)) return false;
+
+  // Edges run clockwise seen from outside their body, so clockwise on the face.
+  gx.store(px), gy.store(py);
+  for (int k = 0; k < edges; ++k) x[k] = px[edges - 1 - k], y[k] = py[edges - 1 - k];
+  const PlaneMoments base = plane_moments(x, y, edges);
+  if (!(base.area > 0)) return false;
+  const double V = base.area * depth * (1. / 3), j = 0.6 * V, s = 0.0375 * V;
+  const double xz = s * base.x * depth, yz = s * base.y * depth,
+               xy = j * base.xy + s * base.x * base.y;
+  c.shape.volume = V;
+  c.shape.centroid = Vec3(0.75 * base.x, 0.75 * base.y, 0.75 * depth);
+  c.shape.second_moment << j * base.xx + s * base.x * base.x, xy, xz,  //
+      xy, j * base.yy + s * base.y * base.y, yz,                       //
+      xz, yz, s * depth * depth;
+  c.shape.depth = depth;
+  c.corners = edges;
+  for (int k = 0; k < edges; ++k) c.corner[k] = Vec3(x[k], y[k], depth);
+  c.shape.area = Vec3(0, 0, base.area);
+  c.frame.origin = own_pose.x + Vec3(arm.x, arm.y, arm.z);
+  return true;
+}
 
 bool simple_contact(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,
                     const SimpleFeature& f, SimpleContact& c) {

@@ -34,4 +34,9 @@ struct SimpleContact {
 bool simple_contact(const ConvexView& a, const Pose&, const ConvexView& b, const Pose&,
                     const SimpleFeature&, SimpleContact&);
 
+/// Vertex v of one body in face `face` of another, of which the planes (padded) are all that is
+/// read; `shape.area` is that of the face. `least` as for simple_contact: kLeastRise times a size.
+bool vertex_in_face(const ConvexView& own, const Pose&, int v, const ConvexView& other, const Pose&,
+                    int face, double least, SimpleContact&);
+
 }  // namespace trackbed::dem

@@ -37,6 +37,13 @@ void make_facet(const SurfacePatch& patch, int triangle, const Vec3& shift, Face
       set_plane(side, 1, next_in.cross(edge - in), p[next]);
     }
   }
+  const auto plane = [&](int i, const Vec3& n, double offset) {
+    f.nx[i] = n.x(), f.ny[i] = n.y(), f.nz[i] = n.z(), f.offset[i] = offset;
+  };
+  plane(0, f.normal, 0);
+  for (int k = 0; k < 6; ++k)
+    plane(1 + k, f.side[k / 2].normal[k % 2], f.side[k / 2].offset[k % 2]);
+  plane(7, -f.normal, f.depth);
   for (int i = 0; i < 8; ++i) {
     const int k = std::min(i, 5);
     const Vec3 q = k < 3 ? p[k] : Vec3(p[k - 3] + patch.inset[t[k - 3]]);
@@ -51,6 +58,13 @@ ConvexView Facet::hull() const {
   double radius2 = 0;
   for (int i = 0; i < 6; ++i) radius2 = std::max(radius2, x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
   view.radius = std::sqrt(radius2);
+  return view;
+}
+
+ConvexView Facet::planes() const {
+  ConvexView view;
+  view.nx = nx, view.ny = ny, view.nz = nz, view.offset = offset;
+  view.faces = 8, view.planes_padded = true;
   return view;
 }
 

@@ -18,10 +18,13 @@ struct Facet {
     double offset[2];
     bool plane = false;
   } side[3];
-  double x[8], y[8], z[8];  ///< the six corners, padded
+  double x[8], y[8], z[8];                ///< the six corners, padded
+  double nx[8], ny[8], nz[8], offset[8];  ///< the surface, the sides, two each, the bottom
 
-  /// A view of the corners' hull, for separating_axis alone: no edges. It points into this.
+  /// Views that point into this: the corners' hull, for separating_axis alone, and eight planes
+  /// that enclose nothing but shell, the surface first.
   ConvexView hull() const;
+  ConvexView planes() const;
 };
 
 /// Fills all of it for a triangle moved by `shift`.

@@ -5,7 +5,8 @@
 
 #include "dem/contact/cone_sums.h"
 #include "dem/contact/eight.h"
-#include "dem/contact/overlap_clip.h"
+#include "dem/contact/overlap_simple.h"
+#include "dem/contact/simple_contact.h"
 
 namespace trackbed::dem {
 namespace {
@@ -191,7 +192,30 @@ bool find_below(const ConvexView& grain, const Pose& pose, const Facet& facet, G
     at.below |= std::uint64_t(less(h, zero)) << k;
   }
   if (grain.vertices < 64) at.below &= (std::uint64_t(1) << grain.vertices) - 1;
-  for (int v = 0; v < grain.vertices; ++v) lower(at.height[v], v);
+  for (std::uint64_t rest = at.below; rest; rest &= rest - 1) {
+    const int v = __builtin_ctzll(rest);
+    lower(at.height[v], v);
+  }
+  if (at.below == 0) at.lowest = 0, at.lowest_vertex = 0;
+  return true;
+}
+
+bool vertex_behind_facet(const ConvexView& grain, const Pose& pose, const Facet& facet,
+                         const GrainBelow& at, ContactFrame& frame, OverlapWorkspace& work,
+                         OverlapMoments& moments) {
+  SimpleContact c;
+  if (at.below != std::uint64_t(1) << at.lowest_vertex || !grain.stars ||
+      !vertex_in_face(grain, pose, at.lowest_vertex, facet.planes(),
+                      {Mat3::Identity(), facet.origin}, 0, kLeastRise * grain.radius, c))
+    return false;
+  frame = c.frame;
+  moments = {};
+  moments.volume = c.shape.volume;
+  moments.about = c.shape.centroid;
+  moments.second = c.shape.second_moment;
+  work.b_pieces.push_back({0, static_cast<int>(work.points.size()), c.corners, c.shape.area});
+  work.points.insert(work.points.end(), c.corner, c.corner + c.corners);
+  work.points.push_back(Vec3::Zero());
   return true;
 }
 

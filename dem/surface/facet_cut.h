@@ -22,12 +22,18 @@ struct GrainBelow {
   static constexpr int kMost = 64;
   alignas(64) double height[kMost];  ///< of the vertices over the plane [m]
   std::uint64_t below = 0;           ///< vertices with height < 0
-  double lowest = 0;                 ///< least height [m]
+  double lowest = 0;                 ///< least height; 0 where none is below [m]
   int lowest_vertex = 0;             ///< where
 };
 
 /// False for bodies of more than 64 vertices or faces: only the lowest vertex is found then.
 bool find_below(const ConvexView& grain, const Pose&, const Facet&, GrainBelow&);
+
+/// A single vertex below the plane, its edges leaving through the facet alone: the commonest case,
+/// in closed form (contact/simple_contact.h). Sets `frame`; the workspace gets the facet inside the
+/// grain as a piece, and the vertex as one more point. False: it is another case.
+bool vertex_behind_facet(const ConvexView& grain, const Pose&, const Facet&, const GrainBelow&,
+                         ContactFrame& frame, OverlapWorkspace& work, OverlapMoments&);
 
 /// Appends the grain's faces inside the facet to work.a_pieces and the facet inside the grain to
 /// work.b_pieces, as face 0, in frame coordinates, and sets the moments about a point of their own.

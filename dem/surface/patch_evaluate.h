@@ -97,25 +97,25 @@ inline bool cut_facet(const ConvexView& grain, const Pose& pose, const SurfacePa
                       OverlapWorkspace& work, FacetOverlaps& out) {
   GrainBelow at;
   const bool small = find_below(grain, pose, facet, at);
-  if (!framed) {
-    const int v = at.lowest_vertex;
-    out.frame =
-        surface_frame(pose.x + pose.R * Vec3(grain.x[v], grain.y[v], grain.z[v]), facet.normal);
-  }
-  if (small) {
-    const int before = static_cast<int>(work.b_pieces.size());
-    OverlapMoments moments;
-    switch (cut_behind_facet(grain, pose, facet, at, out.frame, work, moments)) {
-      case FacetOverlap::none:
-        return false;
-      case FacetOverlap::cut:
-        add_moments(moments, out.moments);
-        for (int p = before; p < static_cast<int>(work.b_pieces.size()); ++p)
-          out.pieces.push_back({p, triangle, shift});
-        return true;
-      case FacetOverlap::not_for_one_facet:
-        break;
+  const int before = static_cast<int>(work.b_pieces.size());
+  OverlapMoments moments;
+  FacetOverlap found = FacetOverlap::not_for_one_facet;
+  if (small && !framed && vertex_behind_facet(grain, pose, facet, at, out.frame, work, moments)) {
+    found = FacetOverlap::cut;
+  } else {
+    if (!framed) {
+      const int v = at.lowest_vertex;
+      out.frame =
+          surface_frame(pose.x + pose.R * Vec3(grain.x[v], grain.y[v], grain.z[v]), facet.normal);
     }
+    if (small) found = cut_behind_facet(grain, pose, facet, at, out.frame, work, moments);
+  }
+  if (found == FacetOverlap::none) return false;
+  if (found == FacetOverlap::cut) {
+    add_moments(moments, out.moments);
+    for (int p = before; p < static_cast<int>(work.b_pieces.size()); ++p)
+      out.pieces.push_back({p, triangle, shift});
+    return true;
   }
   return clip_cells(grain, pose, patch, triangle, shift, work, out);
 }

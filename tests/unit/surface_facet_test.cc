@@ -40,6 +40,29 @@ Cut by_cells(const ConvexView& grain, const Pose& pose, const SurfacePatch& patc
   return cut;
 }
 
+// By the closed form, in world axes.
+bool by_vertex(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch, int triangle,
+               Cut& cut) {
+  Facet facet;
+  make_facet(patch, triangle, Vec3::Zero(), facet);
+  GrainBelow at;
+  find_below(grain, pose, facet, at);
+  OverlapWorkspace work;
+  OverlapMoments m;
+  ContactFrame frame;
+  if (!vertex_behind_facet(grain, pose, facet, at, frame, work, m)) return false;
+  EXPECT_EQ(work.b_pieces.size(), 1u);
+  EXPECT_NEAR(m.first.norm(), 0, 0);
+  // Into the world, about its origin.
+  const Vec3 c = frame.axes * m.about + frame.origin;
+  cut.moments.volume = m.volume;
+  cut.moments.first = m.volume * c;
+  cut.moments.second =
+      frame.axes * m.second * frame.axes.transpose() + m.volume * c * c.transpose();
+  cut.surface = frame.axes * work.b_pieces[0].area;
+  return true;
+}
+
 FacetOverlap in_one(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
                     int triangle, const ContactFrame& frame, Cut& cut) {
   Facet facet;
@@ -67,7 +90,7 @@ TEST(Facet, cuts_as_its_three_cells) {
   v.count = 20, v.seed = 5;
   const auto grains = voronoi_grains(v);
   Random random(12);
-  int cut = 0, left = 0, corners[3] = {};
+  int cut = 0, left = 0, vertices = 0, corners[3] = {};
   for (int k = 0; k < 300; ++k) {
     // Facets larger and smaller than the grain; flat when the shell was made, bent since; or folded
     // at an edge, where the sides are no planes.
@@ -100,10 +123,17 @@ TEST(Facet, cuts_as_its_three_cells) {
         continue;
       }
       expect_same(one, cells, 1);
+      Cut vertex;
+      if (by_vertex(grain, pose, patch, t, vertex)) {
+        ++vertices;
+        const ContactFrame world{Vec3::Zero(), Mat3::Identity()};
+        expect_same(vertex, by_cells(grain, pose, patch, t, world), 1);
+      }
       if (answer == FacetOverlap::cut) ++cut, ++corners[std::min(one.pieces, 2)];
     }
   }
   EXPECT_GT(cut, 300);
+  EXPECT_GT(vertices, 50);
   EXPECT_LT(left, cut / 2);
   EXPECT_EQ(corners[2], 0);  // the surface inside the grain is one piece
 }
