@@ -11,8 +11,8 @@
 #include "apps/trackbed/progress.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/simulation/grains.h"
-#include "apps/trackbed/simulation/replay.h"
 #include "apps/trackbed/simulation/layout.h"
+#include "apps/trackbed/simulation/replay.h"
 #include "apps/trackbed/simulation/zones.h"
 #include "dem/grain/library_report.h"
 

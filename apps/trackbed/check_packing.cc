@@ -18,8 +18,7 @@ struct Check {
   const ParameterValues& values;
 
   [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
-    const std::string path = "Packing/" + key;
-    throw InputError(values.where(path) + " = " + values.text(path) + ": " + why);
+    values.refuse("Packing/" + key, why);
   }
 };
 

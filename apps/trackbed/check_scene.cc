@@ -20,7 +20,7 @@ struct Check {
   const ParameterValues& values;
 
   [[noreturn]] void refuse(const std::string& path, const std::string& why) const {
-    throw InputError(values.where(path) + " = " + values.text(path) + ": " + why);
+    values.refuse(path, why);
   }
 };
 

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "apps/trackbed/simulation/structures.h"
-#include "base/error.h"
 
 namespace trackbed::apps {
 namespace {
@@ -47,11 +46,6 @@ std::unique_ptr<fem::Structure> coarse_subgrade(Scene scene) {
   scene.subgrade.reduction = "none";
   scene.subgrade.inertia = "on";
   return make_subgrade_structure(scene, l);
-}
-
-[[noreturn]] void refuse(const ParameterValues& values, const std::string& path,
-                         const std::string& why) {
-  throw InputError(values.where(path) + " = " + values.text(path) + ": " + why);
 }
 
 // Why the subgrade cannot be static; empty: it can.
@@ -107,7 +101,7 @@ void decide_inertia(Scene& scene, const ParameterValues& values) {
   }
   s.inertia = "off";
   const std::string path = by_scheme ? "Numerics/Structure scheme" : "Subgrade/Inertia";
-  if (!not_static.empty()) refuse(values, path, "not possible, " + not_static);
+  if (!not_static.empty()) values.refuse(path, "not possible, " + not_static);
   std::string& exchange = scene.numerics.exchange;
   if (exchange == "predicted") {
     exchange = "iterated";
@@ -117,8 +111,8 @@ void decide_inertia(Scene& scene, const ParameterValues& values) {
         "and a predicted one grows where contacts are stiffer than a third of it; some 15 rounds a "
         "step: where inertia needs no solve, off takes longer than on");
   } else if (exchange != "iterated") {
-    refuse(values, path,
-           "a subgrade without inertia needs Numerics/Exchange = iterated, not " + exchange);
+    values.refuse(path,
+                  "a subgrade without inertia needs Numerics/Exchange = iterated, not " + exchange);
   }
 }
 

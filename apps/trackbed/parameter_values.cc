@@ -168,6 +168,10 @@ std::string ParameterValues::where(const std::string& path) const {
   return place == places_.end() ? path : place->second + ": " + path;
 }
 
+void ParameterValues::refuse(const std::string& path, const std::string& why) const {
+  throw InputError(where(path) + " = " + text(path) + ": " + why);
+}
+
 std::string print_defaults(const std::vector<Parameter>& table, ParameterFormat format) {
   ParameterHandler handler;
   declare(handler, table);

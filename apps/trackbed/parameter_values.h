@@ -25,6 +25,9 @@ class ParameterValues {
   /// Where the value was given: "box.prm:12: Container/Length", or only the key for a default.
   std::string where(const std::string& path) const;
 
+  /// Throws InputError: the value's place, what was given, why that will not do.
+  [[noreturn]] void refuse(const std::string& path, const std::string& why) const;
+
   const std::map<std::string, std::string>& all() const { return values_; }
 
   /// As a parameter file with all values.

@@ -329,8 +329,9 @@ void add_grain_test(Section s) {
            "beyond the lifted wall (angle_of_repose); it ends at a wall");
   s.number("Rest time", "4", "s", 1e-6, 1e4,
            "longest, until the heap lies still by Packing/Quiet (angle_of_repose)");
-  s.integer("Profile planes", "0", 0, 1000,
-            "vertical cuts whose outlines make the profile (angle_of_repose); 0 = one a mean grain");
+  s.integer(
+      "Profile planes", "0", 0, 1000,
+      "vertical cuts whose outlines make the profile (angle_of_repose); 0 = one a mean grain");
 }
 
 void add_numerics(Section s) {
