@@ -48,13 +48,13 @@ void take_wall_away(Run& run) {
 
 std::vector<Stage> repose_stages(const Scene& s) {
   // The wall is off once its lower edge is above every grain.
-  Stage lifting = test_stage(s, "lifting", s.container.depth * 2 / s.test.speed, s.contact.damping);
+  Stage lifting = bed_stage(s, "lifting", s.container.depth * 2 / s.test.speed, s.contact.damping);
   lifting.enter = open_box;
   lifting.control = [](Run& run, const Stage&) {
     const double gone = wall_travel(run, run.actors.walls - 1).z();
     return gone > run.test.high.z() && gone > highest(run);
   };
-  Stage flow = test_stage(s, "flow", s.test.rest_time, s.contact.packing_damping);
+  Stage flow = bed_stage(s, "flow", s.test.rest_time, s.contact.packing_damping);
   flow.enter = take_wall_away;
   flow.until_quiet = true;
   return {lifting, flow};

@@ -73,8 +73,8 @@ void load_lid(Run& run, double normal) {
 }
 
 Stage consolidation(const Scene& s, double stress) {
-  Stage stage = test_stage(s, stress_name("consolidation", stress), s.test.consolidation_time,
-                           s.contact.packing_damping);
+  Stage stage = bed_stage(s, stress_name("consolidation", stress), s.test.consolidation_time,
+                          s.contact.packing_damping);
   stage.ledger = false;  // what rings down here is more than the work that is put in
   stage.enter = fill_box;
   stage.control = [](Run& run, const Stage& now) {
@@ -87,8 +87,8 @@ Stage consolidation(const Scene& s, double stress) {
 
 Stage shear(const Scene& s, double stress) {
   // A row's end may lie a step late.
-  Stage stage = test_stage(s, stress_name("shear", stress), 1.01 * s.test.travel / s.test.speed,
-                           s.contact.damping);
+  Stage stage = bed_stage(s, stress_name("shear", stress), 1.01 * s.test.travel / s.test.speed,
+                          s.contact.damping);
   stage.enter = [](Run& run) {
     run.test.steps = 0;
     run.test.lengths = run.test.high - run.test.low + wall_travel(run, kTopLid);

@@ -110,6 +110,15 @@ double mean(const std::vector<double>& v, const Part& p) {
 
 bool ends(const Part& p, int rows) { return p.state == "peak" && p.first + p.count > 0.95 * rows; }
 
+// Of these rows of a specimen's curve, but for ratio, angle and how well its stress was held.
+Strength strength_of(const Part& p, const Curve& c, int position, int porosity) {
+  Strength s;
+  s.state = p.state, s.stress = c.target;
+  s.position = mean(c.column[position], p), s.at_end = ends(p, c.rows());
+  s.porosity = c.column[porosity].front();
+  return s;
+}
+
 double furthest(const std::vector<double>& v, double target) {
   double most = 0;
   for (const double x : v) most = std::max(most, std::abs(x / target - 1));
@@ -139,11 +148,8 @@ std::vector<Strength> direct_shear(const Run& run, const std::string& folder) {
       const double n = mean(c.column[kNormal], p) / area, t = mean(c.column[kShear], p) / area;
       normal[which].push_back(n), shear[which].push_back(t);
       ++which;
-      Strength s;
-      s.state = p.state, s.stress = c.target, s.ratio = t / n;
-      s.angle.value = std::atan(t / n);
-      s.porosity = c.column[kPorosity].front();
-      s.position = mean(c.column[kTravel], p), s.at_end = ends(p, c.rows());
+      Strength s = strength_of(p, c, kTravel, kPorosity);
+      s.ratio = t / n, s.angle.value = std::atan(t / n);
       s.held = furthest(c.column[kNormal], c.target * area);
       found.push_back(s);
     }
@@ -182,11 +188,8 @@ std::vector<Strength> triaxial(const Run& run, const std::string& folder) {
       const double s1 = mean(c.column[kAxial], p), s3 = mean(least, p);
       major[which].push_back(s1), minor[which].push_back(s3);
       ++which;
-      Strength s;
-      s.state = p.state, s.stress = c.target, s.ratio = (s1 - s3) / (s1 + s3);
-      s.angle.value = principal_angle(s1, s3);
-      s.porosity = c.column[kPorosity].front();
-      s.position = mean(c.column[kStrain], p), s.at_end = ends(p, c.rows());
+      Strength s = strength_of(p, c, kStrain, kPorosity);
+      s.ratio = (s1 - s3) / (s1 + s3), s.angle.value = principal_angle(s1, s3);
       s.held = std::max(furthest(c.column[kSideX], c.target), furthest(c.column[kSideY], c.target));
       found.push_back(s);
     }

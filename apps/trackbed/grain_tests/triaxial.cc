@@ -57,8 +57,8 @@ void confine(Run& run, const std::vector<double>& stress, int from, int to) {
 }
 
 Stage consolidation(const Scene& s, double stress) {
-  Stage stage = test_stage(s, stress_name("consolidation", stress), s.test.consolidation_time,
-                           s.contact.packing_damping);
+  Stage stage = bed_stage(s, stress_name("consolidation", stress), s.test.consolidation_time,
+                          s.contact.packing_damping);
   stage.ledger = false;  // what rings down here is more than the work that is put in
   stage.gravity = false;
   stage.enter = fill_space;
@@ -74,8 +74,8 @@ Stage consolidation(const Scene& s, double stress) {
 }
 
 Stage compression(const Scene& s, double stress) {
-  Stage stage = test_stage(s, stress_name("compression", stress),
-                           1.01 * s.test.largest_strain / s.test.strain_rate, s.contact.damping);
+  Stage stage = bed_stage(s, stress_name("compression", stress),
+                          1.01 * s.test.largest_strain / s.test.strain_rate, s.contact.damping);
   stage.gravity = false;
   stage.enter = [](Run& run) {
     run.test.steps = 0;

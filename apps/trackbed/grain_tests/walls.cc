@@ -135,18 +135,4 @@ std::string stress_name(const std::string& what, double stress) {
   return text;
 }
 
-Stage test_stage(const Scene& s, const std::string& name, double longest, double damping) {
-  Stage stage;
-  stage.name = name;
-  stage.modulus = s.contact.modulus;
-  stage.damping = damping;
-  stage.margin = s.numerics.margin;
-  stage.friction = s.grains.friction;
-  stage.longest = longest;
-  stage.ledger = true;
-  stage.load = [](const Run&, double) { return 0.0; };
-  stage.enter = [](Run&) {};
-  return stage;
-}
-
 }  // namespace trackbed::apps

@@ -48,7 +48,4 @@ double inertial_time(const Scene&, double grain_size, double stress);
 /// Stage names such as "shear 50 kPa".
 std::string stress_name(const std::string& what, double stress);
 
-/// What the stages of a test share; `loads` opens the ledger.
-Stage test_stage(const Scene&, const std::string& name, double longest, double damping);
-
 }  // namespace trackbed::apps

@@ -119,16 +119,8 @@ std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies
 }
 
 Stage replay_stage(const Scene& s) {
-  Stage stage;
-  stage.name = "replay";
-  stage.modulus = s.contact.modulus;
-  stage.damping = s.contact.damping;
-  stage.margin = s.numerics.margin;
-  stage.friction = s.grains.friction;
-  stage.longest = s.replay.steps * s.numerics.time_step;
-  stage.ledger = true;
+  Stage stage = bed_stage(s, "replay", s.replay.steps * s.numerics.time_step, s.contact.damping);
   stage.enter = place_bodies;
-  stage.load = [](const Run&, double) { return 0.0; };
   return stage;
 }
 

@@ -102,6 +102,10 @@ struct Stage {
   std::function<bool(Run&)> again;  ///< once it is over; true: it is entered again
 };
 
+/// A stage of the finished bed: the scene's own contacts, the ledger opened, no load, nothing to
+/// change at its start.
+Stage bed_stage(const Scene&, const std::string& name, double longest, double damping);
+
 /// Deposit, tamping or quasi-vibration, layers, plate off, sleeper and ballast beside it, hardening
 /// to the loading modulus.
 std::vector<Stage> packing_stages(const Scene&);

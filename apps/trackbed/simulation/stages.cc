@@ -28,6 +28,20 @@ Stage packing_stage(const Scene& s, const char* name) {
 
 }  // namespace
 
+Stage bed_stage(const Scene& s, const std::string& name, double longest, double damping) {
+  Stage stage;
+  stage.name = name;
+  stage.modulus = s.contact.modulus;
+  stage.damping = damping;
+  stage.margin = s.numerics.margin;
+  stage.friction = s.grains.friction;
+  stage.longest = longest;
+  stage.ledger = true;
+  stage.load = [](const Run&, double) { return 0.0; };
+  stage.enter = [](Run&) {};
+  return stage;
+}
+
 std::vector<Stage> packing_stages(const Scene& s) {
   std::vector<Stage> stages;
   if (is_replay(s)) return stages;
@@ -111,14 +125,7 @@ std::vector<Stage> packing_stages(const Scene& s) {
 std::vector<Stage> loading_stages(const Scene& s) {
   if (is_replay(s)) return {replay_stage(s)};
   if (s.test.on()) return grain_test_stages(s);
-  Stage seating;
-  seating.name = "seating";
-  seating.modulus = s.contact.modulus;
-  seating.damping = s.contact.packing_damping;
-  seating.margin = s.numerics.margin;
-  seating.friction = s.grains.friction;
-  seating.longest = 2 * s.loading.ramp_time;
-  seating.ledger = true;
+  Stage seating = bed_stage(s, "seating", 2 * s.loading.ramp_time, s.contact.packing_damping);
   seating.enter = [](Run& run) { place_structures(run); };
   seating.load = [](const Run& run, double t) {
     const LoadingScene& l = run.scene.loading;
