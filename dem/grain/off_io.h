@@ -33,8 +33,10 @@ Polyhedron check_solid(const std::string& name, const RawMesh&, const SolidOptio
 /// corner (faces must be convex). Throws as read_solid.
 TriangleSolid read_triangle_solid(const std::string& path, double unit = 1);
 
-/// Writes OFF with all digits. Throws InputError when the file cannot be written.
+/// OFF with all digits.
 std::string off_text(const Polyhedron&);
+
+/// Writes it. Throws InputError when the file cannot be written.
 void write_off(const std::string& path, const Polyhedron&);
 void write_off(const std::string& path, const TriangleSolid&);
 

@@ -5,6 +5,7 @@
 #include "dem/contact/friction.h"
 #include "dem/grain/random.h"
 #include "dem/grain/voronoi.h"
+#include "dem/surface/penetration.h"
 #include "motion_scene.h"
 #include "surface_scene.h"
 
@@ -98,6 +99,28 @@ TEST_P(Laws, random_grain_feels_a_rigid_box) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Laws, testing::Values("stored_energy", "shao2017"));
+
+// A grain let down below a plane stands in it by that much, however long its overlap is said to be.
+TEST(Penetration, is_how_far_the_grain_was_let_down) {
+  Random random(6);
+  for (int k = 0; k < 20; ++k) {
+    const Quat tilt = random_turn(random);
+    const Vec3 up = tilt * Vec3(0, 0, 1);
+    Mesh mesh = flat_mesh(11, 11, -2, 2, -2, 2);
+    turn_mesh(mesh, tilt);
+    PatchScene s(mesh, .4, .2, kModulus);
+    s.add(grain(k), 1000, Vec3::Zero());
+    const double depth = random.uniform(1e-4, .2);
+    sink(s, 0, up, Vec3::Zero(), random_turn(random), depth);
+    s.evaluate_afresh();
+    ASSERT_EQ(s.contacts.touching[0], 1);
+    EXPECT_NEAR(penetration(s.bodies, s.shapes, s.contacts, 0), depth, 1e-9);
+    s.contacts.depth[0] = 10;
+    EXPECT_NEAR(penetration(s.bodies, s.shapes, s.contacts, 0), depth, 1e-9);
+    s.contacts.depth[0] = depth / 2;
+    EXPECT_EQ(penetration(s.bodies, s.shapes, s.contacts, 0), depth / 2);
+  }
+}
 
 TEST(Nodes, take_back_what_the_grains_get) {
   Random random(8);

@@ -7,6 +7,7 @@
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/replay.h"
 #include "dem/motion/energy.h"
+#include "dem/surface/penetration.h"
 
 namespace trackbed::apps {
 namespace {
@@ -59,21 +60,6 @@ std::string when(const Run& run, const Stage& stage) {
   return text;
 }
 
-// How far a grain reaches behind the surface it presses on [m]: its extent from its centre against
-// the normal force, less the way to where it is pressed; at most the overlap's own depth. That
-// depth alone would not do: a thin slice off a grain's side is long.
-double sunken(const coupling::World& w, const dem::PatchContacts& contacts, int k) {
-  const double size = contacts.normal_force[k].norm();
-  if (!(size > 0)) return 0;
-  const int i = contacts.grain[k];
-  const dem::Vec3 inwards = -contacts.normal_force[k] / size;
-  const dem::Vec3 own = w.bodies.R[i].transpose() * inwards;
-  double reach = 0;
-  for (const dem::Vec3& v : w.shapes.shape(w.bodies.shape[i]).body.vertices)
-    reach = std::max(reach, v.dot(own));
-  return std::min(contacts.depth[k], reach - contacts.arm[k].dot(inwards));
-}
-
 void check_surfaces(const Run& run, const Stage& stage) {
   const coupling::World& w = run.world;
   const double allowed = run.scene.contact.largest_overlap;
@@ -83,7 +69,7 @@ void check_surfaces(const Run& run, const Stage& stage) {
       const int i = s.contacts.grain[k];
       const double size = std::cbrt(w.shapes.shape(w.bodies.shape[i]).volume);
       if (s.contacts.depth[k] <= allowed * size) continue;
-      const double depth = sunken(w, s.contacts, k), share = depth / size;
+      const double depth = dem::penetration(w.bodies, w.shapes, s.contacts, k), share = depth / size;
       if (share <= allowed) continue;
       char text[400];
       std::snprintf(text, sizeof text,
