@@ -36,4 +36,34 @@ inline dem::Scene scene_of(const Setting& set, double modulus, double mu, double
   return s;
 }
 
+/// A sticking pair, its friction loaded by a small slide, turned as one rigid body by 360 degrees
+/// about a slanted axis: by how much of its sideways force it has changed.
+inline double change_of_a_turned_pair(dem::Scene& s, double slide) {
+  using dem::Quat, dem::Vec3;
+  dem::Bodies& b = s.bodies;
+  s.context.dt = 1;
+  const auto step = [&] {
+    s.candidates.update(b, s.shapes, s.context, s.pairs);
+    s.evaluate(1);
+  };
+  b.x[0].x() += slide, b.v[0] = {slide, 0, 0};
+  step();
+  const Vec3 before = b.force[0];
+  const int steps = 4000;
+  const Vec3 turn = 2 * M_PI / steps * Vec3(1, 2, 3).normalized();
+  const Quat q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  for (int k = 0; k < steps; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 old = b.x[i];
+      b.x[i] = q * old;
+      b.q[i] = (q * b.q[i]).normalized();
+      b.R[i] = b.q[i].toRotationMatrix();
+      b.v[i] = b.x[i] - old;
+      b.turn[i] = b.omega[i] = turn;  // dt = 1
+    }
+    step();
+  }
+  return (b.force[0] - before).norm() / before.head<2>().norm();
+}
+
 }  // namespace trackbed::hard

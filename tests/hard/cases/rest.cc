@@ -1,6 +1,5 @@
 // Face on face, at rest, held on a path. Bodies that stand on a flat face.
-#include "hard_case.h"
-#include "motion_scene.h"
+#include "grain_scene.h"
 
 namespace trackbed::hard {
 namespace {
@@ -141,34 +140,9 @@ Measured closed_path(const Setting& set) {
   return {std::abs(work) / stored, 1e-10, set.law != "shao2017"};
 }
 
-// A sticking pair turned as one rigid body, body and floor, by 360 degrees about a slanted axis.
 Measured turned_pair(const Setting& set) {
   Scene s = flat(set, 10, 1e-3 * kSize);
-  dem::Bodies& b = s.bodies;
-  const double slide = 1e-5 * kSize;
-  s.context.dt = 1;
-  const auto step = [&] {
-    s.candidates.update(b, s.shapes, s.context, s.pairs);
-    s.evaluate(1);
-  };
-  b.x[0].x() += slide, b.v[0] = {slide, 0, 0};  // friction is loaded
-  step();
-  const Vec3 before = b.force[0];
-  const int steps = 4000;
-  const Vec3 turn = 2 * M_PI / steps * Vec3(1, 2, 3).normalized();
-  const Quat q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
-  for (int k = 0; k < steps; ++k) {
-    for (int i = 0; i < 2; ++i) {
-      const Vec3 old = b.x[i];
-      b.x[i] = q * old;
-      b.q[i] = (q * b.q[i]).normalized();
-      b.R[i] = b.q[i].toRotationMatrix();
-      b.v[i] = b.x[i] - old;
-      b.turn[i] = turn;
-    }
-    step();
-  }
-  return {(b.force[0] - before).norm() / before.head<2>().norm(), 1e-8};
+  return {change_of_a_turned_pair(s, 1e-5 * kSize), 1e-8};
 }
 
 }  // namespace

@@ -177,34 +177,9 @@ Measured foot_over_foot(const Setting& set) {
   return {worst, 1e-6};
 }
 
-// As for blocks: a sticking pair turned as one rigid body by 360 degrees about a slanted axis.
 Measured turned_pair(const Setting& set) {
   Scene s = standing(set, 10, at_depth(set, 1e-3 * kSize));
-  dem::Bodies& b = s.bodies;
-  const double slide = 1e-5 * kSize;
-  s.context.dt = 1;
-  const auto step = [&] {
-    s.candidates.update(b, s.shapes, s.context, s.pairs);
-    s.evaluate(1);
-  };
-  b.x[0].x() += slide, b.v[0] = {slide, 0, 0};  // friction is loaded
-  step();
-  const Vec3 before = b.force[0];
-  const int steps = 4000;
-  const Vec3 turn = 2 * M_PI / steps * Vec3(1, 2, 3).normalized();
-  const Quat q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
-  for (int k = 0; k < steps; ++k) {
-    for (int i = 0; i < 2; ++i) {
-      const Vec3 old = b.x[i];
-      b.x[i] = q * old;
-      b.q[i] = (q * b.q[i]).normalized();
-      b.R[i] = b.q[i].toRotationMatrix();
-      b.v[i] = b.x[i] - old;
-      b.turn[i] = b.omega[i] = turn;  // dt = 1
-    }
-    step();
-  }
-  return {(b.force[0] - before).norm() / before.head<2>().norm(), 1e-8};
+  return {change_of_a_turned_pair(s, 1e-5 * kSize), 1e-8};
 }
 
 // Everything 1 km away, and the seam of a period between grain and floor's middle.
