@@ -7,7 +7,7 @@
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/mesh_names.h"
-#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/parameter_text.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "base/error.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "apps/trackbed/csv.h"
-#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/parameter_text.h"
 #include "base/error.h"
 
 namespace trackbed::apps {

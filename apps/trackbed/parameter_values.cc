@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/parameter_text.h"
 #include "base/error.h"
 #include "dem/grain/nearest_name.h"
 

@@ -4,6 +4,7 @@
 #include "apps/trackbed/choices.h"
 #include "apps/trackbed/commands.h"
 #include "apps/trackbed/effects.h"
+#include "apps/trackbed/parameter_text.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "base/error.h"

@@ -11,6 +11,7 @@
 #include "apps/trackbed/decide.h"
 #include "apps/trackbed/freedom.h"
 #include "apps/trackbed/inertia.h"
+#include "apps/trackbed/parameter_text.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/scene_text.h"

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "apps/trackbed/cost/knobs.h"
+#include "apps/trackbed/parameter_text.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/read_scene.h"
 #include "base/error.h"

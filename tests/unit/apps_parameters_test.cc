@@ -9,6 +9,7 @@
 #include "apps/trackbed/choices.h"
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/freedom.h"
+#include "apps/trackbed/parameter_text.h"
 #include "apps/trackbed/parameter_values.h"
 #include "apps/trackbed/parameters.h"
 #include "apps/trackbed/plan.h"

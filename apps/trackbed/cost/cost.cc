@@ -11,7 +11,7 @@
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/output_folder.h"
-#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/parameter_text.h"
 #include "apps/trackbed/plot_script.h"
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/signals.h"

@@ -6,7 +6,7 @@
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/effects.h"
-#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/parameter_text.h"
 #include "base/error.h"
 #include "coupling/knobs.h"
 #include "dem/grain/nearest_name.h"

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <vector>
 
-#include "apps/trackbed/parameters.h"
+#include "apps/trackbed/parameter_text.h"
 #include "base/error.h"
 #include "dem/contact/restitution.h"
 
