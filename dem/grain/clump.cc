@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "dem/grain/principal_axes.h"
 #include "dem/grain/random.h"
+#include "dem/grain/scale_solid.h"
 
 namespace trackbed::dem {
 namespace {
@@ -79,15 +80,9 @@ ClumpShape make_clump_shape(const std::vector<Sphere>& given) {
 }
 
 ClumpShape scaled(const ClumpShape& shape, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor))
-    throw InputError("clump: a scale must be positive and finite");
   ClumpShape result = shape;
+  scale_solid(result, factor, "clump");
   for (Sphere& s : result.spheres) s.centre *= factor, s.radius *= factor;
-  result.volume *= factor * factor * factor;
-  result.inertia *= factor * factor * factor * factor * factor;
-  result.radius *= factor;
-  result.sieve_size *= factor;
-  result.origin *= factor;
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "dem/grain/principal_axes.h"
+#include "dem/grain/scale_solid.h"
 
 namespace trackbed::dem {
 
@@ -26,16 +27,10 @@ DilatedShape make_dilated_shape(const DilatedPolyhedron& given) {
 }
 
 DilatedShape scaled(const DilatedShape& shape, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor))
-    throw InputError("dilated grain: a scale must be positive and finite");
   DilatedShape result = shape;
+  scale_solid(result, factor, "dilated grain");
   for (Vec3& v : result.body.core.vertices) v *= factor;
   result.body.radius *= factor;
-  result.volume *= factor * factor * factor;
-  result.inertia *= factor * factor * factor * factor * factor;
-  result.radius *= factor;
-  result.sieve_size *= factor;
-  result.origin *= factor;
   return result;
 }
 

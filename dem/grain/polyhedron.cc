@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "dem/grain/principal_axes.h"
+#include "dem/grain/scale_solid.h"
 
 namespace trackbed::dem {
 namespace {
@@ -106,9 +107,8 @@ GrainShape make_grain_shape(const Polyhedron& given) {
 }
 
 GrainShape scaled(const GrainShape& shape, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor))
-    throw InputError("grain: a scale must be positive and finite");
   GrainShape result = shape;
+  scale_solid(result, factor, "grain");
   for (Vec3& v : result.body.vertices) v *= factor;
   for (ConvexPart& part : result.parts) {
     for (Vec3& v : part.core.vertices) v *= factor;
@@ -116,11 +116,6 @@ GrainShape scaled(const GrainShape& shape, double factor) {
     part.crown /= factor;
     part.mean_square *= factor * factor;
   }
-  result.volume *= factor * factor * factor;
-  result.inertia *= factor * factor * factor * factor * factor;
-  result.radius *= factor;
-  result.sieve_size *= factor;
-  result.origin *= factor;
   return result;
 }
 
