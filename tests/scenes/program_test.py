@@ -292,8 +292,9 @@ class Structures(SceneTest):
             self.assertGreaterEqual(len(table), 3)
             for row in table[1:]:
                 way = 0.02 * (row["time_s"] - table[0]["time_s"])
-                # F = k (way - x) + c (v0 - v), c = sqrt(k m): at worst it stands still or goes twice as fast.
-                self.assertAlmostEqual(row["displacement_m"] + row["force_N"] / 1e6, way, delta=dashpot / 1e6 * 0.02)
+                # F = k (way - x) + c (v0 - v), c = sqrt(k m); grains may throw it back or on by v0 at most.
+                self.assertAlmostEqual(row["displacement_m"] + row["force_N"] / 1e6, way,
+                                       delta=2 * dashpot / 1e6 * 0.02)
                 self.assertNotEqual(row["force_N"], 0)
                 self.assertLess(abs(row["force_N"]), 100)
                 self.assertAlmostEqual(row["load_N"], 20, delta=1e-9)
