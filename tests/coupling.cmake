@@ -20,5 +20,6 @@ target_include_directories(trackbed_hard_cases PUBLIC ${CMAKE_CURRENT_SOURCE_DIR
                            ${CMAKE_CURRENT_SOURCE_DIR}/hard/cases)
 target_link_libraries(trackbed_hard_cases PUBLIC trackbed_coupling)
 trackbed_test(hard_cases hard trackbed_hard_cases)
+target_compile_definitions(hard_cases_test PRIVATE TESTS="${CMAKE_CURRENT_SOURCE_DIR}")
 add_executable(hard_cases ${CMAKE_CURRENT_SOURCE_DIR}/hard/hard_cases.cc)
 target_link_libraries(hard_cases PRIVATE trackbed_hard_cases)

@@ -1,7 +1,8 @@
-"""The stability page: hard_cases.py DIR. Reads DIR/hard_cases.csv and DIR/map.csv (tests/hard/run.sh), writes
-DIR/stability.html and PNGs."""
+"""The stability page: hard_cases.py DIR. Reads DIR/hard_cases.csv, curves.csv and map.csv (tests/hard/run.sh), and
+elsewhere.xml where the tests named in tests/hard/elsewhere.txt were run; writes DIR/stability.html and PNGs."""
 import os
 import sys
+import xml.etree.ElementTree as xml
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -19,7 +20,7 @@ COLOUR = {"holds": style.MOSS, "BROKEN": style.RUST, "reported": style.QUIET}
 
 
 def setting(table, k):
-    words = [str(table[name][k]) for name in ("shape", "law") if table["schedule"][k] == ""]
+    words = [str(table[name][k]) for name in ("shape", "law") if table["schedule"][k] == "" and table[name][k]]
     if table["schedule"][k] != "":
         words = [str(table["schedule"][k]) + (f" {int(table['grain_steps'][k])}" if table["grain_steps"][k] > 1 else "")]
     return ", ".join(words)
@@ -30,10 +31,17 @@ def margin(value, bound):
     return np.inf if value <= 0 else bound / value
 
 
-def case_rows(table):
-    """A line a case: judged settings, the worst of them, what was reported besides."""
+def place(table, k):
+    """Where a figure was measured: setting and step share, in brackets; nothing where there is but one setting."""
+    words = setting(table, k)
+    return f" ({words}, {number(table['step_share'][k])})" if words else ""
+
+
+def case_rows(table, group):
+    """A line a case of a group: judged settings, the worst of them, what was reported besides."""
     rows = []
-    for name in dict.fromkeys(table["case"]):
+    names = [name for name, heading in zip(table["case"], table["group"]) if heading == group]
+    for name in dict.fromkeys(names):
         at = [k for k in range(table.rows) if table["case"][k] == name]
         judged = [k for k in at if table["verdict"][k] != "reported"]
         worst = max(judged, key=lambda k: table["measured"][k], default=None)
@@ -43,12 +51,63 @@ def case_rows(table):
         if worst is None:
             cells += ["–", "–", "–"]
         else:
-            value, bound = table["measured"][worst], table["bound"][worst]
-            cells += [f"{number(value, 2)} ({setting(table, worst)}, {number(table['step_share'][worst])})",
-                      f"{number(bound, 2)} {table['unit'][worst]}", number(margin(value, bound), 2)]
-        cells.append("–" if told is None else
-                     f"{number(table['measured'][told], 2)} ({setting(table, told)}, {number(table['step_share'][told])})")
+            value, bound, unit = table["measured"][worst], table["bound"][worst], table["unit"][worst]
+            if unit.startswith("1 = "):    # yes or no
+                cells += ["no" if value <= bound else f"yes{place(table, worst)}", unit[4:] + "?", "–"]
+            else:
+                cells += [f"{number(value, 2)}{place(table, worst)}", f"{number(bound, 2)} {unit}",
+                          number(margin(value, bound), 2)]
+        cells.append("–" if told is None else f"{number(table['measured'][told], 2)}{place(table, told)}")
         rows.append(cells)
+    return rows
+
+
+def curves(table):
+    """What a case runs through, a panel each: the first shape under every law."""
+    names = list(dict.fromkeys(table["case"]))
+    figure, axes = plt.subplots((len(names) + 1) // 2, 2, squeeze=False,
+                                figsize=(style.COLUMN[0] * 1.5, 2.4 * ((len(names) + 1) // 2)))
+    for panel, name in zip(axes.flat, names):
+        at = np.flatnonzero(np.array(table["case"]) == name)
+        lines = list(dict.fromkeys((table["shape"][k], table["law"][k], table["schedule"][k]) for k in at))
+        for line in lines:
+            keep = [k for k in at if (table["shape"][k], table["law"][k], table["schedule"][k]) == line]
+            panel.plot([table["x"][k] for k in keep], [table["y"][k] for k in keep], marker=".", ms=3, lw=1,
+                       label=", ".join(word for word in line if word))
+        if table["log_x"][at[0]]:
+            panel.set_xscale("log")
+        if table["log_y"][at[0]]:
+            panel.set_yscale("log")
+        panel.set_xlabel(table["x_name"][at[0]], fontsize=7.5)
+        panel.set_ylabel(table["y_name"][at[0]], fontsize=7.5)
+        panel.set_title(name, fontsize=8)
+        panel.tick_params(labelsize=7)
+        if any(any(line) for line in lines):
+            panel.legend(fontsize=6)
+    for panel in list(axes.flat)[len(names):]:
+        panel.axis("off")
+    return figure, ("What cases run through, by the first shape under each law. shao2017 is not the gradient of an energy "
+                    "and has kinks; its figures are reported, not judged.")
+
+
+def elsewhere(folder):
+    """Rows of tests/hard/elsewhere.txt: case, must hold, tests, passed where DIR/elsewhere.xml tells."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    passed = {}
+    results = os.path.join(folder, "elsewhere.xml")
+    if os.path.exists(results):
+        for case in xml.parse(results).getroot().iter("testcase"):
+            passed[case.get("name").split("/")[-1]] = case.get("status") == "run"
+    rows = []
+    with open(os.path.join(here, "..", "..", "tests", "hard", "elsewhere.txt"), encoding="utf-8") as text:
+        for line in text:
+            if line.startswith("#") or not line.strip():
+                continue
+            case, must, names = (cell.strip() for cell in line.split("|"))
+            names = names.split()
+            known = [passed[name] for name in names if name in passed]
+            told = "not run here" if not known else f"{sum(known)} of {len(names)}"
+            rows.append((case, must, ", ".join(names), told))
     return rows
 
 
@@ -145,11 +204,21 @@ def build(folder):
     broken = int((cases["verdict"] == "BROKEN").sum())
     parts = [page.paragraph(f"{cases.rows} settings of {len(set(cases['case']))} cases; "
                             f"{broken} promise{'s' if broken != 1 else ''} broken.", "note")]
-    parts.append(page.section("Cases", page.table(
-        ["case", "must hold", "damping", "holds", "worst (shape, law, step share)", "bound", "margin",
-         "largest of those only reported"], case_rows(cases), numeric=(3, 6))))
+    parts.append(page.paragraph(
+        "Each case runs over the shapes and laws it applies to and, where the step matters, at .05, .2, .5 and .9 of the "
+        "limit (the step share), or over the exchange schedules. Holds: settings that keep their promise, of those that "
+        "carry one. Worst: the largest measured of these. Margin: bound over it. Reported: what carries no promise - "
+        "energy at larger steps, shao2017 (no stored energy), lagged exchange."))
+    for group in dict.fromkeys(cases["group"]):
+        parts.append(page.section(group, page.table(
+            ["case", "must hold", "damping", "holds", "worst (shape, law, step share)", "bound", "margin",
+             "largest of those only reported"], case_rows(cases, group), numeric=(3, 6))))
+    parts.append(page.section("Held by other tests", page.table(
+        ["case", "must hold", "tests", "passed"], elsewhere(folder))))
     shown = []
-    for name, title, make, table in (("stability_margins", "Margins", margins, cases),
+    drawn = read_table(os.path.join(folder, "curves.csv"))
+    for name, title, make, table in (("stability_curves", "Curves", curves, drawn),
+                                     ("stability_margins", "Margins", margins, cases),
                                      ("stability_map", "Stability map", stability_map, grid)):
         made, why = attempt(make, table)
         if made is None:
@@ -164,7 +233,7 @@ def build(folder):
         theory_rows(grid), numeric=(1, 2, 3))))
     out = os.path.join(folder, "stability.html")
     page.write(out, "What stability means", "Trackbed: hard cases and limits", parts,
-               "hard_cases.csv holds every setting, map.csv the map.")
+               "hard_cases.csv holds every setting, curves.csv the curves, map.csv the map.")
     return out
 
 

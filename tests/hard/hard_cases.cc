@@ -25,29 +25,31 @@ const char* verdict(const Measured& m) {
 // Rows of the table; returns how many promises are broken.
 int run_cases(const std::string& file, bool slow, const std::string& only) {
   std::ofstream out(file);
-  out << "case,must_hold,damping,shape,law,step_share,schedule,grain_steps,measured,bound,unit,"
+  out << "group,case,must_hold,damping,shape,law,step_share,schedule,grain_steps,measured,bound,"
+         "unit,"
          "verdict,wall_s\n";
   out.precision(6);
   int broken = 0;
-  for (const Case& c : all_cases()) {
-    if ((c.slow && !slow) || c.name.find(only) == std::string::npos) continue;
-    int done = 0, failed = 0;
-    for (const Setting& s : settings(c)) {
-      const auto begun = std::chrono::steady_clock::now();
-      const Measured m = c.run(s);
-      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
-      if (std::isnan(m.value) && !m.judged) continue;
-      const double value = std::isfinite(m.value) ? m.value : 1e300;
-      out << quoted(c.name) << ',' << quoted(c.must) << ',' << quoted(c.damping) << ',' << s.shape
-          << ',' << s.law << ',' << s.share << ',' << s.schedule << ',' << s.grain_steps << ','
-          << value << ',' << m.bound << ',' << quoted(c.unit) << ',' << verdict(m) << ','
-          << wall.count() << '\n';
-      ++done, failed += m.judged && !(m.value <= m.bound);
+  for (const Group& group : groups())
+    for (const Case& c : group.cases) {
+      if ((c.slow && !slow) || c.name.find(only) == std::string::npos) continue;
+      int done = 0, failed = 0;
+      for (const Setting& s : settings(c)) {
+        const auto begun = std::chrono::steady_clock::now();
+        const Measured m = c.run(s);
+        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
+        if (std::isnan(m.value) && !m.judged) continue;
+        const double value = std::isfinite(m.value) ? m.value : 1e300;
+        out << quoted(group.name) << ',' << quoted(c.name) << ',' << quoted(c.must) << ','
+            << quoted(c.damping) << ',' << s.shape << ',' << s.law << ',' << s.share << ','
+            << s.schedule << ',' << s.grain_steps << ',' << value << ',' << m.bound << ','
+            << quoted(c.unit) << ',' << verdict(m) << ',' << wall.count() << '\n';
+        ++done, failed += m.judged && !(m.value <= m.bound);
+      }
+      out.flush();
+      std::fprintf(stderr, "%-52s %3d settings, %d broken\n", c.name.c_str(), done, failed);
+      broken += failed;
     }
-    out.flush();
-    std::fprintf(stderr, "%-52s %3d settings, %d broken\n", c.name.c_str(), done, failed);
-    broken += failed;
-  }
   return broken;
 }
 

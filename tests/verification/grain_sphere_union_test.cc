@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "dem/grain/random.h"
 #include "dem/grain/sphere_union.h"
+#include "known/filled_stones.h"
 
 namespace trackbed::dem {
 namespace {
@@ -179,6 +180,25 @@ TEST(SphereUnion, RefusesWrongSpheres) {
   EXPECT_THROW(mass_properties(std::vector<Sphere>{{{0, std::nan(""), 0}, 1}}), InputError);
   EXPECT_THROW(sliced_volume({}), InputError);
   EXPECT_THROW(sliced_volume({{{0, 0, 0}, 1}}, 0), InputError);
+}
+
+// Smaller spheres leave out less of a stone, never nothing, and never stand for more than it: the
+// ladder of spheres a clump.
+TEST(Filling, ErrorFallsWithTheLeastSphereAndStaysAboveZero) {
+  double before = 1, spheres = 0;
+  std::vector<double> error;
+  for (const double least : {.014, .010, .007, .005, .0035}) {
+    const known::Filling f = known::missing_inertia(known::fillings(least, 4));
+    EXPECT_LT(f.error, before) << least;
+    EXPECT_GT(f.error, 0) << least;
+    EXPECT_GT(f.spheres, spheres) << least;
+    before = f.error, spheres = f.spheres;
+    error.push_back(f.error);
+  }
+  // Spheres fill what is left more and more slowly: by an order below one.
+  const double order = std::log(error.front() / error.back()) / std::log(.014 / .0035);
+  EXPECT_GT(order, .4);
+  EXPECT_LT(order, 1);
 }
 
 }  // namespace

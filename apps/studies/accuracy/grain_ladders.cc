@@ -2,11 +2,10 @@
 #include <cmath>
 
 #include "dem/grading/sieve_size.h"
-#include "dem/grain/clump.h"
 #include "dem/grain/dilated.h"
-#include "dem/grain/jin.h"
 #include "dem/grain/voronoi.h"
 #include "known/dilated_cells.h"
+#include "known/filled_stones.h"
 #include "ladder.h"
 
 namespace trackbed::study {
@@ -69,16 +68,6 @@ Ladder sieve_methods() {
   return l;
 }
 
-// Jin's stones filled with spheres, then measured by slices.
-std::vector<std::vector<Sphere>> fillings(double least, int stones) {
-  Random random(1);
-  std::vector<std::vector<Sphere>> all;
-  FillingParameters p;
-  p.least_radius = least, p.space_factor = 1.15;
-  for (int k = 0; k < stones; ++k) all.push_back(fill_with_spheres(jin_stone({}, random), p));
-  return all;
-}
-
 Ladder slices() {
   Ladder l{"slices of a clump",
            "slices over the least sphere",
@@ -87,7 +76,7 @@ Ladder slices() {
            "a clump",
            "2",
            {}};
-  const auto clumps = fillings(.007, 8);
+  const auto clumps = known::fillings(.007, 8);  // of Jin's stones
   for (const int n : {3, 6, 12, 25, 50, 100, 200, 400}) {
     double error = 0, spheres = 0;
     const double seconds = seconds_of([&] {
@@ -116,21 +105,13 @@ Ladder spheres() {
            "a filling",
            "",
            {}};
-  Random random(1);
-  std::vector<double> exact;
-  for (int k = 0; k < 8; ++k)
-    exact.push_back(mass_properties(jin_stone({}, random)).inertia.trace());
   for (const double least : {.014, .010, .007, .005, .0035, .0025, .002}) {
     std::vector<std::vector<Sphere>> clumps;
-    const double seconds = seconds_of([&] { clumps = fillings(least, 8); });
-    double error = 0, count = 0;
-    for (int k = 0; k < 8; ++k) {
-      error += std::abs(mass_properties(clumps[k]).inertia.trace() / exact[k] - 1) / 8;
-      count += clumps[k].size() / 8.;
-    }
+    const double seconds = seconds_of([&] { clumps = known::fillings(least, 8); });
+    const known::Filling f = known::missing_inertia(clumps);
     char name[20];
     std::snprintf(name, sizeof name, "%g", 1000 * least);
-    l.rungs.push_back({name, least, error, seconds / 8, count});
+    l.rungs.push_back({name, least, f.error, seconds / 8, f.spheres});
   }
   return l;
 }

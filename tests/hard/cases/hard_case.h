@@ -64,7 +64,14 @@ const std::vector<Case>& saved_cases();
 const std::vector<Case>& coupled_cases();
 const std::vector<Case>& structure_cases();
 
+/// Cases under one heading.
+struct Group {
+  const char* name;
+  const std::vector<Case>& cases;
+};
+
 /// All of them, in the order of the page.
+std::vector<Group> groups();
 std::vector<Case> all_cases();
 
 /// The settings a case runs over; the first is that of the quick test.

@@ -20,12 +20,22 @@ dem::Polyhedron solid(const std::string& name, double size) {
   return body;
 }
 
+std::vector<Group> groups() {
+  return {{"Edges and corners", edge_cases()},
+          {"Faces, at rest, on a path", rest_cases()},
+          {"Round grains", round_cases()},
+          {"Impacts and starts", impact_cases()},
+          {"Thin solids, spare corners, one in another", solid_cases()},
+          {"Over facets", facet_cases()},
+          {"The step", step_cases()},
+          {"The same bits", saved_cases()},
+          {"Grains on elements", coupled_cases()},
+          {"Structures", structure_cases()}};
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> all;
-  for (const auto& list :
-       {edge_cases(), rest_cases(), round_cases(), impact_cases(), solid_cases(), facet_cases(),
-        step_cases(), saved_cases(), coupled_cases(), structure_cases()})
-    all.insert(all.end(), list.begin(), list.end());
+  for (const Group& g : groups()) all.insert(all.end(), g.cases.begin(), g.cases.end());
   return all;
 }
 
