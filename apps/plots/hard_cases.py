@@ -69,11 +69,13 @@ def curves(table):
                                 figsize=(style.COLUMN[0] * 1.5, 2.4 * ((len(names) + 1) // 2)))
     for panel, name in zip(axes.flat, names):
         at = np.flatnonzero(np.array(table["case"]) == name)
-        lines = list(dict.fromkeys((table["shape"][k], table["law"][k], table["schedule"][k]) for k in at))
-        for line in lines:
-            keep = [k for k in at if (table["shape"][k], table["law"][k], table["schedule"][k]) == line]
+        lines = {}    # by shape, law, schedule; what does not apply is left out
+        for k in at:
+            words = (table[column][k] for column in ("shape", "law", "schedule"))
+            lines.setdefault(", ".join(word for word in words if isinstance(word, str) and word), []).append(k)
+        for line, keep in lines.items():
             panel.plot([table["x"][k] for k in keep], [table["y"][k] for k in keep], marker=".", ms=3, lw=1,
-                       label=", ".join(word for word in line if word))
+                       label=line)
         if table["log_x"][at[0]]:
             panel.set_xscale("log")
         if table["log_y"][at[0]]:
@@ -82,7 +84,7 @@ def curves(table):
         panel.set_ylabel(table["y_name"][at[0]], fontsize=7.5)
         panel.set_title(name, fontsize=8)
         panel.tick_params(labelsize=7)
-        if any(any(line) for line in lines):
+        if any(lines):
             panel.legend(fontsize=6)
     for panel in list(axes.flat)[len(names):]:
         panel.axis("off")
@@ -124,6 +126,7 @@ def margins(table):
     axes.axvline(1, color=style.INK, lw=1)
     axes.set_xscale("log")
     axes.set_yticks(range(len(names)), list(reversed(names)))
+    axes.set_ylim(-1, len(names))
     axes.set_xlabel("measured over its bound")
     axes.legend(loc="lower right")
     return figure, ("What was measured over its bound, every setting; left of the line holds. Grey: reported only, the "
