@@ -8,11 +8,11 @@ namespace trackbed::dem {
 namespace {
 
 void add_number(Bodies& b, int k) {
-  // Spheres and others, some held, one of them turning fast.
-  const bool sphere = k % 3 == 0;
-  const std::uint8_t freedom = k % 7 == 3   ? kMoveZ | kTurnX | kTurnY | kTurnZ
-                               : k % 7 == 5 ? kFixed
-                                            : kFree;
+  // Eight free ones, eight spheres, then some that are held; one of them turns fast.
+  const bool sphere = k % 3 == 0 || (k >= 8 && k < 16);
+  const std::uint8_t freedom = k % 7 == 3              ? kMoveZ | kTurnX | kTurnY | kTurnZ
+                               : k >= 16 && k % 7 == 5 ? kFixed
+                                                       : kFree;
   const Vec3 inertia = sphere ? Vec3(2, 2, 2) : Vec3(1, 2. + .1 * k, 2.5);
   const int i = add_body(b, 0, 0, 1 + .1 * k, inertia, Vec3(k, 0, 0),
                          turn_about({1, 2. * k, -1}, .3 * k), freedom);
@@ -26,7 +26,7 @@ TEST(Together, bodies_move_as_they_do_alone) {
   for (const double damping : {0., .4}) {
     StepContext c;
     c.dt = .01, c.local_damping = damping;
-    const int n = 27;
+    const int n = 35;
     Bodies all;
     for (int k = 0; k < n; ++k) add_number(all, k);
     StepWork sum, expected;
