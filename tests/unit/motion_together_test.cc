@@ -10,7 +10,7 @@ namespace {
 void add_number(Bodies& b, int k) {
   // Eight free ones, eight spheres, then some that are held; one of them turns fast.
   const bool sphere = k % 3 == 0 || (k >= 8 && k < 16);
-  const std::uint8_t freedom = k % 7 == 3              ? kMoveZ | kTurnX | kTurnY | kTurnZ
+  const std::uint8_t freedom = k >= 16 && k % 7 == 3   ? kMoveZ | kTurnX | kTurnY | kTurnZ
                                : k >= 16 && k % 7 == 5 ? kFixed
                                                        : kFree;
   const Vec3 inertia = sphere ? Vec3(2, 2, 2) : Vec3(1, 2. + .1 * k, 2.5);
