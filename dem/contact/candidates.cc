@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "dem/contact/cell_grid.h"
+#include "dem/contact/eight_vectors.h"
 #include "dem/contact/part_pairs.h"
 
 namespace trackbed::dem {
 namespace {
+
+constexpr int kFewBodies = 2000;  // as quickly done as a thread is woken
 
 double radius(const Bodies& b, const ShapeTable& shapes, int i) {
   return shapes.view(b.shape[i]).radius;
@@ -46,21 +49,41 @@ double default_skin(const Bodies& b, const ShapeTable& shapes) {
 bool Candidates::update(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
                         Pairs& pairs) {
   bool again = static_cast<int>(state_.travel.size()) != b.size();
-  if (!again) {
-    double most = 0;
-    for (int i = 0; i < b.size(); ++i) {
-      state_.travel[i] += b.v[i].norm() * c.dt + radius(b, shapes, i) * b.turn[i].norm();
-      most = std::max(most, state_.travel[i] - state_.travel_search[i]);
-    }
-    again = !(most <= state_.skin / 2);
-  }
+  if (!again) again = !(add_travel(b, shapes, c) <= state_.skin / 2);
   if (again) rebuild(b, shapes, c, pairs);
   return again;
+}
+
+double Candidates::add_travel(const Bodies& b, const ShapeTable& shapes, const StepContext& c) {
+  if (static_cast<int>(radius_.size()) != b.size()) find_radii(b, shapes);
+  double most = 0;
+  const int n = b.size();
+#pragma omp parallel for schedule(static) reduction(max     \
+                                                    : most) \
+    num_threads(c.threads) if (c.threads > 1 && n > kFewBodies)
+  for (int row = 0; row < n; row += 8) {
+    Eightfold e;
+    for (int i = row; i < std::min(n, row + 8); ++i) e.add(i);
+    e.complete();
+    const Eight step = sqrt(squared_norm(read(b.v.data(), e))),
+                turn = sqrt(squared_norm(read(b.turn.data(), e)));
+    const Eight travel =
+        read(state_.travel.data(), e) + c.dt * step + read(radius_.data(), e) * turn;
+    write(state_.travel.data(), e, travel);
+    most = std::max(most, largest(travel - read(state_.travel_search.data(), e)));
+  }
+  return most;
+}
+
+void Candidates::find_radii(const Bodies& b, const ShapeTable& shapes) {
+  radius_.resize(b.size());
+  for (int i = 0; i < b.size(); ++i) radius_[i] = radius(b, shapes, i);
 }
 
 void Candidates::rebuild(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
                          Pairs& pairs) {
   state_.skin = settings_.skin > 0 ? settings_.skin : default_skin(b, shapes);
+  find_radii(b, shapes);
   make_boxes(b, shapes, c.threads);
   found_.clear();
   search_grains(b, c);

@@ -50,6 +50,9 @@ class Candidates {
   struct Box {
     Vec3 low, high;
   };
+  /// Adds the step's travel; returns the most since the last search [m].
+  double add_travel(const Bodies&, const ShapeTable&, const StepContext&);
+  void find_radii(const Bodies&, const ShapeTable&);
   void make_boxes(const Bodies&, const ShapeTable&, int threads);
   void search_grains(const Bodies&, const StepContext&);
   void search_rigid(const Bodies&, const ShapeTable&, const StepContext&);
@@ -58,6 +61,7 @@ class Candidates {
 
   CandidateSettings settings_;
   State state_;
+  std::vector<double> radius_;              // of each body
   std::vector<Box> boxes_;                  // grown by half a skin
   std::vector<std::pair<int, int>> found_;  // of the search under way
   std::vector<PairKey> keys_;               // their parts

@@ -28,12 +28,16 @@ struct EightConstants {
 
 inline EightConstants constants_of(const Bodies& b, const PairMaterials& materials,
                                    const EightContacts& e) {
-  double mass[8];
+  double mass_a[8], mass_b[8];
   const PairMaterial* material[8];
   bool same = true;
   for (int k = 0; k < 8; ++k) {
     const int i = e.a.at[k], j = e.b.at[k];
-    mass[k] = contact_mass(b, i, j);
+    // 1/m = 1/m_a + 1/m_b; of a body that is held, m is the other's: half of twice that.
+    const bool a_held = b.freedom[i] == kFixed, b_held = b.freedom[j] == kFixed;
+    const double factor = a_held || b_held ? 2 : 1;
+    mass_a[k] = factor * b.mass[a_held ? j : i];
+    mass_b[k] = factor * b.mass[b_held ? i : j];
     material[k] = &materials(b.material[i], b.material[j]);
     same = same && material[k] == material[0];
   }
@@ -43,8 +47,9 @@ inline EightConstants constants_of(const Bodies& b, const PairMaterials& materia
     for (int k = 0; k < 8; ++k) each[k] = material[k]->*value;
     return Eight::load(each);
   };
+  const Eight ma = Eight::load(mass_a), mb = Eight::load(mass_b);
   return {
-      Eight::load(mass),
+      ma * mb / (ma + mb),
       {eight(&PairMaterial::modulus), eight(&PairMaterial::friction), eight(&PairMaterial::damping),
        eight(&PairMaterial::stiffness), eight(&PairMaterial::round_ratio)}};
 }

@@ -85,9 +85,42 @@ using NumberOf = decltype(squared_norm(std::declval<V>()));
           _mm512_permutex2var_pd(_mm512_unpackhi_pd(a, b), first, _mm512_unpackhi_pd(c, d)),
           _mm512_permutex2var_pd(xz, second, xz2)};
 }
+/// To eight places.
+[[gnu::always_inline]] inline void scatter(double* v, const int* at, Eight r) {
+  const auto two = [&](__m128d p, int k) {
+    _mm_storel_pd(v + at[k], p), _mm_storeh_pd(v + at[k + 1], p);
+  };
+  two(_mm512_castpd512_pd128(r.v), 0), two(_mm512_extractf64x2_pd(r.v, 1), 2);
+  two(_mm512_extractf64x2_pd(r.v, 2), 4), two(_mm512_extractf64x2_pd(r.v, 3), 6);
+}
+[[gnu::always_inline]] inline void scatter3(Vec3* v, const int* at, const Eight3& r) {
+  const __m512d even = _mm512_unpacklo_pd(r.x.v, r.y.v), odd = _mm512_unpackhi_pd(r.x.v, r.y.v);
+  const auto two = [&](__m128d xy, __m128d xy_next, __m128d z, int k) {
+    double *p = v[at[k]].data(), *q = v[at[k + 1]].data();
+    _mm_storeu_pd(p, xy), _mm_storel_pd(p + 2, z);
+    _mm_storeu_pd(q, xy_next), _mm_storeh_pd(q + 2, z);
+  };
+  two(_mm512_castpd512_pd128(even), _mm512_castpd512_pd128(odd), _mm512_castpd512_pd128(r.z.v), 0);
+  two(_mm512_extractf64x2_pd(even, 1), _mm512_extractf64x2_pd(odd, 1),
+      _mm512_extractf64x2_pd(r.z.v, 1), 2);
+  two(_mm512_extractf64x2_pd(even, 2), _mm512_extractf64x2_pd(odd, 2),
+      _mm512_extractf64x2_pd(r.z.v, 2), 4);
+  two(_mm512_extractf64x2_pd(even, 3), _mm512_extractf64x2_pd(odd, 3),
+      _mm512_extractf64x2_pd(r.z.v, 3), 6);
+}
 
 #else
 
+[[gnu::always_inline]] inline void scatter(double* v, const int* at, Eight r) {
+  double x[8];
+  r.store(x);
+  for (int k = 0; k < 8; ++k) v[at[k]] = x[k];
+}
+[[gnu::always_inline]] inline void scatter3(Vec3* v, const int* at, const Eight3& r) {
+  double x[8], y[8], z[8];
+  r.x.store(x), r.y.store(y), r.z.store(z);
+  for (int k = 0; k < 8; ++k) v[at[k]] = Vec3(x[k], y[k], z[k]);
+}
 [[gnu::always_inline]] inline Eight3 gather3(const Vec3* v, const int* at) {
   double x[8], y[8], z[8];
   for (int k = 0; k < 8; ++k) x[k] = v[at[k]].x(), y[k] = v[at[k]].y(), z[k] = v[at[k]].z();
@@ -98,9 +131,8 @@ using NumberOf = decltype(squared_norm(std::declval<V>()));
   return gather3(v, kRow);
 }
 [[gnu::always_inline]] inline void store3(Vec3* v, const Eight3& r) {
-  double x[8], y[8], z[8];
-  r.x.store(x), r.y.store(y), r.z.store(z);
-  for (int k = 0; k < 8; ++k) v[k] = Vec3(x[k], y[k], z[k]);
+  constexpr int kRow[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  scatter3(v, kRow, r);
 }
 
 #endif
@@ -145,15 +177,62 @@ template <class T>
 }
 [[gnu::always_inline]] inline void write(Vec3* v, const Eightfold& e, const Eight3& r) {
   if (e.in_a_row) return store3(v + e.at[0], r);
+  if (e.count == 8) return scatter3(v, e.at, r);
   double x[8], y[8], z[8];
   r.x.store(x), r.y.store(y), r.z.store(z);
   for (int k = 0; k < e.count; ++k) v[e.at[k]] = Vec3(x[k], y[k], z[k]);
 }
 [[gnu::always_inline]] inline void write(double* v, const Eightfold& e, Eight r) {
   if (e.in_a_row) return r.store(v + e.at[0]);
+  if (e.count == 8) return scatter(v, e.at, r);
   double x[8];
   r.store(x);
   for (int k = 0; k < e.count; ++k) v[e.at[k]] = x[k];
+}
+
+/// a[0] b[0] a[1] b[1] ...: 16 numbers.
+[[gnu::always_inline]] inline void store_pairs(double* p, Eight a, Eight b) {
+#ifdef TRACKBED_AVX512
+  const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11),
+                high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+  _mm512_storeu_pd(p, _mm512_permutex2var_pd(a.v, low, b.v));
+  _mm512_storeu_pd(p + 8, _mm512_permutex2var_pd(a.v, high, b.v));
+#else
+  double x[8], y[8];
+  a.store(x), b.store(y);
+  for (int k = 0; k < 8; ++k) p[2 * k] = x[k], p[2 * k + 1] = y[k];
+#endif
+}
+
+/// Vectors of four numbers.
+[[gnu::always_inline]] inline void read4(const Eigen::Vector4d* v, const Eightfold& e,
+                                         Eight (&r)[4]) {
+#ifdef TRACKBED_AVX512
+  const auto two = [&](int k) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(v[e.at[k]].data())),
+                              _mm256_loadu_pd(v[e.at[k + 1]].data()), 1);
+  };
+  const __m512d a = two(0), b = two(2), c = two(4), d = two(6);
+  const __m512i first = _mm512_setr_epi64(0, 4, 8, 12, 1, 5, 9, 13),
+                second = _mm512_setr_epi64(2, 6, 10, 14, 3, 7, 11, 15);
+  const __m512d xy = _mm512_permutex2var_pd(a, first, b), zw = _mm512_permutex2var_pd(a, second, b),
+                xy2 = _mm512_permutex2var_pd(c, first, d),
+                zw2 = _mm512_permutex2var_pd(c, second, d);
+  r[0] = _mm512_shuffle_f64x2(xy, xy2, 0x44), r[1] = _mm512_shuffle_f64x2(xy, xy2, 0xee);
+  r[2] = _mm512_shuffle_f64x2(zw, zw2, 0x44), r[3] = _mm512_shuffle_f64x2(zw, zw2, 0xee);
+#else
+  double x[4][8];
+  for (int k = 0; k < 8; ++k)
+    for (int d = 0; d < 4; ++d) x[d][k] = v[e.at[k]][d];
+  for (int d = 0; d < 4; ++d) r[d] = Eight::load(x[d]);
+#endif
+}
+[[gnu::always_inline]] inline void write4(Eigen::Vector4d* v, const Eightfold& e,
+                                          const Eight (&r)[4]) {
+  double xy[16], zw[16];
+  store_pairs(xy, r[0], r[1]), store_pairs(zw, r[2], r[3]);
+  for (int k = 0; k < e.count; ++k)
+    v[e.at[k]] = Eigen::Vector4d(xy[2 * k], xy[2 * k + 1], zw[2 * k], zw[2 * k + 1]);
 }
 
 }  // namespace trackbed::dem

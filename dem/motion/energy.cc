@@ -38,13 +38,12 @@ Energies energies(const Bodies& b, const Pairs& pairs, const Vec3& gravity) {
 }
 
 double friction_loss(const Pairs& pairs, int threads) {
-  return ordered_sum<double>(pairs.size(), threads, [&](int p) { return pairs.friction_loss[p]; });
+  return ordered_sum(pairs.friction_loss.data(), pairs.size(), threads);
 }
 
 double viscous_loss(const Pairs& pairs, int threads) {
   const int first = pairs.end(PairKind::polyhedra);  // they have none
-  return ordered_sum<double>(pairs.round(), threads,
-                             [&](int p) { return pairs.viscous_loss[first + p]; });
+  return ordered_sum(pairs.viscous_loss.data() + first, pairs.round(), threads);
 }
 
 }  // namespace trackbed::dem

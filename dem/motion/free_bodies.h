@@ -1,6 +1,8 @@
 // The step of free bodies, eight at a time: no direction of theirs is held. What motion.cc does for
 // the others body by body, with the same formulas. Included by motion.cc.
 #pragma once
+#include <cstring>
+
 #include "dem/contact/eight_vectors.h"
 #include "dem/motion/motion.h"
 #include "dem/motion/rotation.h"
@@ -14,24 +16,23 @@ struct EightTurns {
 };
 
 [[gnu::always_inline]] inline EightTurns read_turns(const Bodies& b, const Eightfold& e) {
-  double q[4][8];
-  for (int k = 0; k < 8; ++k)
-    for (int d = 0; d < 4; ++d) q[d][k] = b.q[e.at[k]].coeffs()[d];
   EightTurns t;
-  for (int d = 0; d < 4; ++d) t.q[d] = Eight::load(q[d]);
+  read4(&b.q[0].coeffs(), e, t.q);
   return t;
 }
 
+// A body's numbers lie together: they are written in pairs.
 [[gnu::always_inline]] inline void write_turns(Bodies& b, const Eightfold& e, const EightTurns& t) {
-  double q[4][8], R[9][8];
-  for (int d = 0; d < 4; ++d) t.q[d].store(q[d]);
-  for (int d = 0; d < 3; ++d) {
-    t.column[d].x.store(R[3 * d]), t.column[d].y.store(R[3 * d + 1]);
-    t.column[d].z.store(R[3 * d + 2]);
-  }
+  write4(&b.q[0].coeffs(), e, t.q);
+  const Eight3 *a = t.column, *m = t.column + 1, *z = t.column + 2;
+  const Eight R[9] = {a->x, a->y, a->z, m->x, m->y, m->z, z->x, z->y, z->z};
+  double pairs[4][16], last[8];
+  for (int d = 0; d < 4; ++d) store_pairs(pairs[d], R[2 * d], R[2 * d + 1]);
+  R[8].store(last);
   for (int k = 0; k < e.count; ++k) {
-    for (int d = 0; d < 4; ++d) b.q[e.at[k]].coeffs()[d] = q[d][k];
-    for (int d = 0; d < 9; ++d) b.R[e.at[k]].data()[d] = R[d][k];
+    double* to = b.R[e.at[k]].data();
+    for (int d = 0; d < 4; ++d) std::memcpy(to + 2 * d, pairs[d] + 2 * k, 2 * sizeof(double));
+    to[8] = last[k];
   }
 }
 
@@ -43,10 +44,10 @@ struct EightTurns {
   t.column[2] = {x2 * z + y2 * w, y2 * z - x2 * w, 1 - (x2 * x + y2 * y)};
 }
 
-inline Eight3 to_body(const EightTurns& t, const Eight3& v) {
+[[gnu::always_inline]] inline Eight3 to_body(const EightTurns& t, const Eight3& v) {
   return {dot(t.column[0], v), dot(t.column[1], v), dot(t.column[2], v)};
 }
-inline Eight3 to_world(const EightTurns& t, const Eight3& v) {
+[[gnu::always_inline]] inline Eight3 to_world(const EightTurns& t, const Eight3& v) {
   return v.x * t.column[0] + v.y * t.column[1] + v.z * t.column[2];
 }
 
@@ -69,14 +70,14 @@ struct FreeBodies {
   EightTurns turns;
   bool alike;  ///< all three moments of inertia are the same in all of them
 
-  FreeBodies(const Bodies& b, const Eightfold& e)
+  [[gnu::always_inline]] FreeBodies(const Bodies& b, const Eightfold& e)
       : at(e), mass(read(b.mass.data(), e)), v(read(b.v.data(), e)), L(read(b.L.data(), e)) {
     const Eight3 moments = read(b.inertia.data(), e);
     inertia[0] = moments.x, inertia[1] = moments.y, inertia[2] = moments.z;
     alike = all_less(unlike(inertia), Eight(0));
     if (!alike) turns = read_turns(b, e), make_matrix(turns);
   }
-  void update_omega() {
+  [[gnu::always_inline]] void update_omega() {
     if (alike) {
       omega = (1 / inertia[0]) * L;
       return;
@@ -86,17 +87,18 @@ struct FreeBodies {
   }
 };
 
-inline Eight with_sign(Eight size, Eight of) {
+[[gnu::always_inline]] inline Eight with_sign(Eight size, Eight of) {
   return where_less(0, of, size, where_less(of, 0, 0. - size, 0));
 }
-inline Eight3 against(double share, const Eight3& force, const Eight3& v) {
+[[gnu::always_inline]] inline Eight3 against(double share, const Eight3& force, const Eight3& v) {
   return {share * with_sign(abs(force.x), v.x), share * with_sign(abs(force.y), v.y),
           share * with_sign(abs(force.z), v.z)};
 }
 
 /// half_kick of motion.cc.
 template <bool damped, bool before>
-StepWork half_kick(FreeBodies& f, const Bodies& b, const StepContext& c) {
+[[gnu::always_inline]] inline StepWork half_kick(FreeBodies& f, const Bodies& b,
+                                                 const StepContext& c) {
   const double h = c.dt / 2;
   const Eight3 applied = read(b.applied_force.data(), f.at);
   Eight3 force = read(b.force.data(), f.at) + applied + f.mass * Eight3(c.gravity),
@@ -124,7 +126,7 @@ StepWork half_kick(FreeBodies& f, const Bodies& b, const StepContext& c) {
 }
 
 /// Orientation and angular velocity over the step; returns its rotation vector.
-inline Eight3 rotate(FreeBodies& f, const Bodies& b, double dt) {
+[[gnu::always_inline]] inline Eight3 rotate(FreeBodies& f, const Bodies& b, double dt) {
   if (f.alike) {  // one turn about L, from the world's side
     f.update_omega();
     f.turns = read_turns(b, f.at);
