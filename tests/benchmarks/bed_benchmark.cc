@@ -1,17 +1,17 @@
-// Growth and effects on the settled bed of Voronoi grains.
-//   bed_benchmark growth [folder] [tiles (10)]   step per grain, memory per grain, from 1 to
-//   tiles^2
-//                                                copies of 1000 grains; the exponent of time in
-//                                                grains
-//   bed_benchmark effects [folder]               each effect switched on or off, as a ratio to the
-//                                                bed with friction and local damping, in turn so
-//                                                that a machine whose speed drifts treats all alike
-#include <sys/resource.h>
+// Growth and effects on a settled, periodic bed.
+//   bed_benchmark growth [folder or ""] [tiles (10)] [polyhedra|spheres] [grains (1000)]
+//       step per grain and memory per grain, from 1 to tiles^2 copies of the bed; the exponent of
+//       time in grains. Copies lie one after the other: grains are ordered in space by copies.
+//   bed_benchmark effects [folder or ""] [rounds (12)] [grains (1000)]
+//       each effect switched on or off, as a ratio to the bed with friction and local damping, in
+//       turn so that a machine whose speed drifts treats all alike
+// Beds of polyhedra are kept in the folder.
+#include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 
 #include "settled_bed.h"
@@ -26,10 +26,9 @@ double now() {
   return t.tv_sec + 1e-9 * t.tv_nsec;
 }
 
-double peak_memory() {  // [B]
-  rusage use;
-  getrusage(RUSAGE_SELF, &use);
-  return 1024. * use.ru_maxrss;
+double memory() {  // allocated now [B]
+  const auto info = mallinfo2();
+  return double(info.uordblks) + double(info.hblkhd);
 }
 
 double median_step(Scene& s, int steps) {  // [s]
@@ -47,14 +46,18 @@ void growth(const Scene& bed, int most) {
   std::printf("| grains | touching pairs | us per touching pair | us per grain | kB per grain |\n");
   std::printf("|---|---|---|---|---|\n");
   double first = 0, last = 0, first_grains = 0, last_grains = 0;
-  for (const int tiles : {1, 3, most}) {
-    const double before = peak_memory();
+  std::vector<int> copies{1};
+  if (most > 3) copies.push_back(3);
+  if (most > 1) copies.push_back(most);
+  for (const int tiles : copies) {
+    const double before = memory();
     Scene s = tiled(bed, tiles, tiles);
     s.step();
     const double seconds = median_step(s, tiles < most ? 40 : 15), grains = s.bodies.grains;
     const int touching = count_contacts(s.pairs);
     std::printf("| %.0f | %d | %.3f | %.3f | %.1f |\n", grains, touching, 1e6 * seconds / touching,
-                1e6 * seconds / grains, (peak_memory() - before) / 1e3 / grains);
+                1e6 * seconds / grains, (memory() - before) / 1e3 / grains);
+    std::fflush(stdout);
     if (tiles == 1) first = seconds, first_grains = grains;
     last = seconds, last_grains = grains;
   }
@@ -68,7 +71,7 @@ struct Variant {
   std::vector<double> seconds;
 };
 
-void effects(const Scene& bed) {
+void effects(const Scene& bed, int rounds) {
   std::vector<Variant> variants{{"friction and local damping", bed, {}}};
   const auto add = [&](const char* name, auto change) {
     variants.push_back({name, bed, {}});
@@ -81,7 +84,7 @@ void effects(const Scene& bed) {
   add("with rolling resistance", [](Scene& s) { s.resistance.rolling = .1; });
   add("shao2017's law", [](Scene& s) { s.forces = make_pair_forces("shao2017", true); });
   add("not periodic", [](Scene& s) { s.context.period = Vec3::Zero(), s.prepare(); });
-  for (int round = 0; round < 12; ++round)
+  for (int round = 0; round < rounds; ++round)
     for (Variant& v : variants)
       v.seconds.push_back(median_step(v.scene, 9) / count_contacts(v.scene.pairs));
   double base = 0;
@@ -99,14 +102,21 @@ void effects(const Scene& bed) {
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what != "growth" && what != "effects") {
-    std::fprintf(stderr, "bed_benchmark growth|effects [folder the bed is kept in] [tiles]\n");
+    std::fprintf(stderr,
+                 "bed_benchmark growth|effects [folder] ...: see the head of bed_benchmark.cc\n");
     return 2;
   }
   BedSettings settings;
-  settings.folder = argc > 2 ? argv[2] : "";
+  const auto argument = [&](int k, const char* otherwise) -> std::string {
+    return argc > k ? argv[k] : otherwise;
+  };
+  settings.folder = argument(2, "");
+  const bool grows = what == "growth";
+  settings.spheres = grows && argument(4, "polyhedra") == "spheres";
+  settings.grains = std::stoi(argument(grows ? 5 : 4, "1000"));
   const Scene bed = settled_bed(settings);
-  if (what == "growth")
-    growth(bed, argc > 3 ? std::atoi(argv[3]) : 10);
+  if (grows)
+    growth(bed, std::stoi(argument(3, "10")));
   else
-    effects(bed);
+    effects(bed, std::stoi(argument(3, "12")));
 }

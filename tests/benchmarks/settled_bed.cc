@@ -28,6 +28,13 @@ std::vector<GrainShape> ballast(int count) {
   return grains;
 }
 
+std::vector<GrainShape> spheres(int count) {
+  std::vector<GrainShape> grains;
+  Random random(3);
+  for (int k = 0; k < count; ++k) grains.push_back(sphere_shape(random.uniform(.018, .027)));
+  return grains;
+}
+
 PairMaterial material(double modulus, double friction) {
   PairMaterial m;
   m.modulus = modulus, m.friction = friction, m.tangential_ratio = .25;
@@ -43,9 +50,9 @@ void settle(Scene& s, double modulus, double friction, double damping, double ti
 }
 
 // Grains only, loose, in a periodic column as high as wide once settled.
-Scene loose_grains(int count) {
+Scene loose_grains(const std::vector<GrainShape>& grains) {
   Scene s(2e7, .1);
-  const std::vector<GrainShape> grains = ballast(count);
+  const int count = static_cast<int>(grains.size());
   double volume = 0;
   std::vector<double> radii;
   for (const GrainShape& g : grains) volume += g.volume, radii.push_back(g.radius);
@@ -127,17 +134,22 @@ bool read_bed(Scene& s, int grains, const std::string& name) {
 }  // namespace
 
 Scene loose_bed(int grains) {
-  Scene s = loose_grains(grains);
+  Scene s = loose_grains(ballast(grains));
   add_base(s);
   return s;
 }
 
 Scene settled_bed(const BedSettings& b) {
   Scene kept(b.modulus, b.friction);
-  const bool found = !b.folder.empty() && read_bed(kept, b.grains, file_name(b));
-  Scene s = found ? kept : loose_grains(b.grains);
+  const bool found = !b.spheres && !b.folder.empty() && read_bed(kept, b.grains, file_name(b));
+  Scene s = found ? kept : loose_grains(b.spheres ? spheres(b.grains) : ballast(b.grains));
   add_base(s);
   s.context.threads = b.threads;
+  if (b.spheres) {
+    settle(s, 5e7, .1, .2, .3);
+    settle(s, 5e7, b.friction, .7, .3);
+    return s;
+  }
   if (!found) {
     for (int k = 0; k < 4; ++k) settle(s, 5e7, .1, .2, .15);
     settle(s, 5e7, .1, .7, .15);

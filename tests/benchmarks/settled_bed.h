@@ -1,5 +1,5 @@
-// A settled, periodic bed of Voronoi grains made from `dem` alone, so that a benchmark needs no
-// run of the program; kept in a file between calls.
+// A settled, periodic bed of Voronoi grains or spheres made from `dem` alone, so that a benchmark
+// needs no run of the program; kept in a file between calls.
 #pragma once
 #include <string>
 
@@ -12,6 +12,7 @@ struct BedSettings {
   double modulus = 2e9;   ///< of the grains at the end [Pa]
   double friction = 0.5;  ///< at the end; packed with 0.1
   int threads = 1;        ///< while it settles
+  bool spheres = false;   ///< instead, of 18-27 mm radius; settled soft only, not kept in files
   std::string folder;     ///< where a bed is kept; empty: nowhere
 };
 
