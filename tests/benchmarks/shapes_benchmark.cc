@@ -1,6 +1,7 @@
 // Cost of one step of a bed by shape of its grains, everything included: spheres, clumps of 8,
 // dilated polyhedra, and half of them polyhedra. Loose grains fall into a box and settle; then per
-// touching pair of parts, per near pair, per grain and step, on one thread and on two.
+// touching pair of parts, per grain and step, on one thread and on two, and per near pair that does
+// not touch, such pairs by themselves.
 //   shapes_benchmark [grains (1000)] [steps timed (1000)] [folder or ""] [only this shape or ""]
 //                    [threads (2)]
 // In the folder it leaves each bed (bed_file.h) and shapes.csv, for peers.py.
