@@ -107,5 +107,42 @@ TEST(Together, contacts_answer_as_they_do_alone) {
   EXPECT_GT(changed, n / 2);
 }
 
+// Spheres, clumps and blocks, pressed together in a container: all kinds of pairs, many of each.
+Scene heap(int threads) {
+  Scene s(1e7, .4);
+  PairMaterial m = s.materials(0, 0);
+  m.damping = .3;
+  s.materials.set(0, 0, m);
+  const int row = 7;
+  const double cell = .039;
+  for (int i = 0; i < row * row * row; ++i) {
+    const Vec3 at(i % row + .5, i / row % row + .5, i / (row * row) + .5);
+    s.add(shape(i % 4 == 3    ? 1
+                : i % 11 == 5 ? 2
+                              : 0),
+          2600, cell * at, turn_about({1, .5 * i, .2}, .4 * i));
+  }
+  add_container(s.bodies, s.shapes, {0, 0, 0}, cell * row * Vec3(1, 1, 2), .1, 0);
+  s.context.threads = threads, s.context.local_damping = .1, s.context.dt = 1e-5;
+  s.prepare();
+  s.run(300 * s.context.dt);
+  return s;
+}
+
+TEST(Together, the_same_bits_on_any_threads) {
+  const Scene one = heap(1);
+  for (const PairKind k : {PairKind::balls, PairKind::points, PairKind::point_core})
+    EXPECT_GT(one.pairs.end(k) - one.pairs.begin(k), 200);
+  EXPECT_GT(count_contacts(one.pairs), 500);
+  for (const int threads : {2, 8}) {
+    const Scene s = heap(threads);
+    EXPECT_EQ(one.flow.total(), s.flow.total()) << threads;
+    EXPECT_EQ(one.bodies.x, s.bodies.x) << threads;
+    EXPECT_EQ(one.bodies.L, s.bodies.L) << threads;
+    EXPECT_EQ(one.pairs.friction, s.pairs.friction) << threads;
+    EXPECT_EQ(one.candidates.travel(), s.candidates.travel()) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace trackbed::dem
