@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "base/error.h"
@@ -50,9 +51,8 @@ const ElasticBodyParameters& checked(const ElasticBodyParameters& p) {
   if (!p.beds.empty()) refuse("a bed or an absorbing boundary");
   for (const Material& m : p.materials)
     if (m.rayleigh_mass > 0 || m.rayleigh_stiffness > 0) refuse("Rayleigh damping");
-  if (p.scheme == TimeScheme::central_difference || p.scheme == TimeScheme::zhai ||
-      p.scheme == TimeScheme::quasi_static)
-    refuse("this time scheme");
+  if (p.scheme == TimeScheme::central_difference || p.scheme == TimeScheme::zhai)
+    refuse("an explicit time scheme by name");
   return p;
 }
 
@@ -92,12 +92,14 @@ struct DistributedBody::Parts {
     }
     load.assign(patches.size(), 0.);
     load_before = load;
-    if (m.lumped) limit = 0.9 * 2 / m.largest_frequency();
+    if (is_static() && !m.held)
+      throw InputError(m.p.name + ": not held, so that no static answer exists; add supports");
+    if (m.lumped && !is_static()) limit = 0.9 * 2 / m.largest_frequency();
     if (inner(m.p.gravity, m.p.gravity) > 0) {
       outer_force(f);
       if (m.p.start_in_equilibrium && m.held)
         DistributedSolver(m, m.stiffness, m.p.solver).solve(f, u);
-      else
+      else if (!is_static())
         m.solve_mass(f, a);
     }
     start_ledger();
@@ -108,7 +110,8 @@ struct DistributedBody::Parts {
     for (std::size_t l = 0; l < load.size(); ++l) to.add_scaled(load[l], load_weight[l]);
   }
 
-  double kinetic() { return m.mass_product(v, work) / 2; }
+  bool is_static() const { return m.p.scheme == TimeScheme::quasi_static; }
+  double kinetic() { return is_static() ? 0 : m.mass_product(v, work) / 2; }
   double strain() { return m.stiffness_product(u, work) / 2; }
   double gravity() { return -m.gravity.dot(u); }
   void start_ledger() {
@@ -119,6 +122,10 @@ struct DistributedBody::Parts {
   void set_step(double step) {
     dt = step;
     goes_explicitly = dt <= limit;
+    if (is_static()) {  // one factor for all steps
+      if (!solver) solver = std::make_unique<DistributedSolver>(m, m.stiffness, m.p.solver);
+      return;
+    }
     solver.reset();
     if (goes_explicitly) return;
     const double k = (1 - scheme.alpha_f) * scheme.beta * dt * dt;
@@ -131,7 +138,9 @@ struct DistributedBody::Parts {
     force.add_scaled(1, surface_force);
     work.copy(u);
     const DistributedVector before = work;
-    if (goes_explicitly)
+    if (is_static())
+      advance_statically();
+    else if (goes_explicitly)
       advance_explicitly();
     else
       advance_implicitly();
@@ -146,6 +155,14 @@ struct DistributedBody::Parts {
       load_before[l] = load[l];
     }
     f.copy(force);
+  }
+
+  void advance_statically() {
+    v.copy(u);
+    solver->solve(force, u);
+    v.scale(-1);
+    v.add_scaled(1, u);
+    v.scale(1 / dt);
   }
 
   void advance_explicitly() {
@@ -228,9 +245,14 @@ double DistributedBody::explicit_limit() const { return parts_->limit; }
 int DistributedBody::loads() const { return static_cast<int>(parts_->patches.size()); }
 double DistributedBody::mass() const { return parts_->m.mass(); }
 double DistributedBody::least_surface_mass() const {
-  return parts_->m.least_mass(parts_->surface.node);
+  return parts_->is_static() ? std::numeric_limits<double>::infinity()
+                             : parts_->m.least_mass(parts_->surface.node);
 }
 double DistributedBody::largest_frequency() const { return parts_->m.omega; }
+double DistributedBody::contact_bound(const std::vector<NodeSpring>& springs) const {
+  const double own = parts_->goes_explicitly ? 0.9 * 2 / parts_->limit : 0;
+  return Structure::contact_bound(springs) + own * own;
+}
 int DistributedBody::unknowns() const { return parts_->m.unknowns.count; }
 int DistributedBody::solver_iterations() const {
   return parts_->solver ? parts_->solver->iterations() : 0;

@@ -22,7 +22,7 @@ using BuildTogether =
 class DistributedBody final : public Structure {
  public:
   /// As ElasticBody, by all ranks together. \throws InputError as ElasticBody, and for what is not
-  /// distributed: beds, Rayleigh damping, named explicit and static time schemes.
+  /// distributed: beds, Rayleigh damping, explicit time schemes by name.
   explicit DistributedBody(ElasticBodyParameters);
   ~DistributedBody() override;
 
@@ -38,6 +38,7 @@ class DistributedBody final : public Structure {
   double mass() const override;
   double least_surface_mass() const override;
   double largest_frequency() const override;
+  double contact_bound(const std::vector<NodeSpring>&) const override;
   int unknowns() const override;
   StructureEnergy energy() const override;
   /// The same for any number of ranks, and from run to run on several, to the solver's tolerance:
