@@ -126,10 +126,13 @@ Plan make_plan(const Scene& scene, int threads) {
   coupling::World sample = sample_of_smallest(scene, least);
   check_seam(layout, sample, largest / least);
   const double given = scene.numerics.time_step;
+  dem::ContactExpectation expect;
+  expect.flat_faces = dem::make_round_forces(scene.contact.round_law, true).flat_faces;
   for (const auto& stage : stages) {
     if (stage.longest <= 0) continue;
     sample.materials = make_materials(scene, stage.modulus, stage.friction);
-    const double limit = dem::expected_limit(sample.bodies, sample.shapes, sample.materials, {}).dt;
+    const double limit =
+        dem::expected_limit(sample.bodies, sample.shapes, sample.materials, expect).dt;
     const double dt = given > 0 ? given : stage.margin * limit;
     const double rungs = stage.again ? static_cast<double>(scene.packing.friction_path.size()) : 1;
     const double usual = stage.name == "deposit"                     ? usual_deposit

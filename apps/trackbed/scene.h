@@ -76,7 +76,7 @@ struct ContactScene {
   double modulus;            ///< contact modulus of the loading stage [Pa]
   double packing_modulus;    ///< softer, while packing [Pa]
   double tangential_ratio;   ///< k_s/k_n
-  std::string round_law;     ///< "hertz_mindlin" | "sun2015" | "linear"
+  std::string round_law;     ///< "hertz_mindlin" | "hertz_flat" | "sun2015" | "linear"
   double restitution;        ///< of round contacts
   double poisson;            ///< of the rock, for their tangential stiffness
   double stiffness;          ///< of the linear law [N/m]

@@ -28,6 +28,14 @@ struct CoreFeature {
 /// The one that the point of a search lies on.
 CoreFeature feature_of(const ConvexView&, const ClosestPoint&, const Vec3& point);
 
+/// The search from any two features and points of them (own frames), which are near the deepest
+/// balls: to the best point of the features, or as far as they reach and on to what bounds them, or
+/// from there to a larger feature that goes downhill; each step is one. False when it has not come
+/// to an end after many, when cores touch, and for views without stars.
+bool walk_to_deepest_balls(const PartView& a, const Mat3& Ra, const PartView& b, const Pose&,
+                           CoreFeature on_a, const Vec3& x, CoreFeature on_b, const Vec3& y,
+                           DeepestBalls&);
+
 /// As deepest_balls() of two polyhedra. False when the balls lie on other features now, when the
 /// cores touch each other, where parallel ones without a crown leave the place
 /// open, and for views without stars.

@@ -185,6 +185,12 @@ DeepestBalls deepest_balls(const PartView& a, const Mat3& Ra, const PartView& b,
     if (ca.dimension == 3 || !(distance > 0)) return deep(a, Ra, b, pose, start, axis);
     x = ca.point;
     distance = (y - x).norm();
+    if (round == 0) {
+      DeepestBalls walked;
+      if (walk_to_deepest_balls(a, Ra, b, pose, feature_of(a.core, ca, x), x,
+                                feature_of(b.core, cb, cb.point), cb.point, walked))
+        return walked;
+    }
     const bool settled = std::abs(distance - before) <= 1e-11 * distance;
     if (settled && (x - was).squaredNorm() <= tolerance2) break;
     while (ca.dimension > 0 && cb.dimension > 0) {

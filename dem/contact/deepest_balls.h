@@ -11,10 +11,12 @@
 // F = U'(delta) along n is then conservative, and the force on a face does not depend on how many
 // corners it has.
 //
-// Method. Blocks: y <- nearest point of core b to x, drawn to b's centre by the crown, and the same
-// for x; both at once within the faces or edges they lie on (a 2x2 problem, exact there), cut where
-// the feature ends. Each step increases delta; mostly one or two rounds. Once cores themselves
-// overlap, delta continues along the direction of least depth (separating_axis).
+// Method. From the nearest points a walk over features to the optimum (ball_features.h). For bodies
+// without stars (shell cells), and should it not end, blocks: y <- nearest point of core b to x,
+// drawn to b's centre by the crown, and the same for x; both at once within the faces or edges they
+// lie on (a 2x2 problem, exact there), cut where the feature ends. Each step increases delta;
+// mostly one or two rounds. Once cores themselves overlap, delta continues along the direction of
+// least depth (separating_axis).
 #pragma once
 #include "dem/contact/closest_point.h"
 #include "dem/contact/overlap.h"

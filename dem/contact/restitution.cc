@@ -59,7 +59,7 @@ double damping_for_restitution(const std::string& law, double e) {
     throw InputError("restitution " + std::to_string(e) + " is out of range: 0.01 to 1");
   if (e == 1) return 0;
   if (law == "sun2015") return tsuji_damping(e);
-  const bool hertz = law == "hertz_mindlin";
+  const bool hertz = law == "hertz_mindlin" || law == "hertz_flat";
   double low = 0, high = 1;
   while (restitution(hertz, high) > e) high *= 2;
   for (int k = 0; k < 50; ++k) {

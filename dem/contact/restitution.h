@@ -8,8 +8,9 @@ namespace trackbed::dem {
 /// ball laws made dimensionless. Hertz-Mindlin: p = 3/2, q = 1/4; linear: p = 1, q = 0.
 double restitution(bool hertz, double alpha);
 
-/// alpha of a law (by name) for a coefficient of restitution: hertz_mindlin and linear by inverting
-/// restitution(), sun2015 by tsuji_damping. 1 gives 0. Throws InputError unless 0.01 <= e <= 1.
+/// alpha of a law (by name) for a coefficient of restitution: hertz_mindlin, hertz_flat and linear
+/// by inverting restitution(), sun2015 by tsuji_damping. 1 gives 0. Throws InputError unless 0.01
+/// <= e <= 1.
 double damping_for_restitution(const std::string& law, double e);
 
 /// -sqrt(5) ln e/sqrt(ln^2 e + pi^2): Hertz with a force that may pull.

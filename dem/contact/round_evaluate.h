@@ -2,8 +2,11 @@
 // friction; those over pairs of balls are in ball_evaluate.h. Included by the file that makes the
 // instances, nowhere else.
 #pragma once
+#include <omp.h>
+
 #include "dem/contact/ball_evaluate.h"
 #include "dem/contact/ball_features.h"
+#include "dem/contact/flat_response.h"
 #include "dem/contact/round_forces.h"
 
 namespace trackbed::dem {
@@ -55,13 +58,25 @@ struct Found {
   }
 };
 
-/// Adds pair p to `found` if it touches.
-template <class Geometry>
-void find_contact(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
-                  const std::vector<double>& travel, Pairs& pairs, int p, Found& found) {
+/// Dilated polyhedra on each other or on plain ones, under a law that knows of their flat faces.
+template <class Geometry, class Law>
+inline constexpr bool kFlats = Geometry::kind == PairKind::cores&& Law::flats;
+
+/// The part as that law and kind of pair see it.
+template <class Geometry, class Law>
+const PartView& part_of(const ShapeTable& shapes, int shape, int k) {
+  if constexpr (kFlats<Geometry, Law>) return shapes.flat_part(shape, k);
+  return shapes.part(shape, k);
+}
+
+/// Adds pair p to `found` if it touches; one with flat parts answers at once.
+template <class Geometry, class Law, bool friction>
+void find_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
+                  const StepContext& c, const std::vector<double>& travel, Pairs& pairs, int p,
+                  Found& found) {
   const int i = pairs.a[p], j = pairs.b[p];
-  const PartView& part_a = shapes.part(b.shape[i], pairs.part_a[p]);
-  const PartView& part_b = shapes.part(b.shape[j], pairs.part_b[p]);
+  const PartView& part_a = part_of<Geometry, Law>(shapes, b.shape[i], pairs.part_a[p]);
+  const PartView& part_b = part_of<Geometry, Law>(shapes, b.shape[j], pairs.part_b[p]);
   const Vec3 apart = b.x[j] + nearest_image(b.x[i], b.x[j], c.period) - b.x[i];
   const DeepestBalls balls = Geometry::find(b, part_a, part_b, apart, pairs, p);
   const Vec3 arm_a = balls.x + (balls.ra - balls.overlap / 2) * balls.n;
@@ -71,10 +86,22 @@ void find_contact(const Bodies& b, const ShapeTable& shapes, const StepContext& 
     pairs.arm_a[p] = arm_a;
     return;
   }
+  const double radius = mean_radius(part_a.radius, part_b.radius);
+  if constexpr (kFlats<Geometry, Law>) {
+    const PairMaterial& material = materials(b.material[i], b.material[j]);
+    FlatContact flat;
+    if (flat_contact(part_a, b.R[i], part_b, {b.R[j], apart}, balls, material,
+                     pairs.workspaces[omp_get_thread_num()], flat)) {
+      const BallContactOf<double> contact{balls.overlap, radius, 0, contact_mass(b, i, j), c.dt};
+      respond_flat<Law, friction>(b, material, contact, balls.n, arm_a, flat, apart, pairs, p);
+      return;
+    }
+    pairs.couple[p].setZero();  // of a flat part that is gone
+  }
   const int k = found.pair.count;
   found.pair.add(p);
   found.overlap[k] = balls.overlap;
-  found.radius[k] = mean_radius(part_a.radius, part_b.radius);
+  found.radius[k] = radius;
   found.n[k] = balls.n, found.arm_a[k] = arm_a, found.apart[k] = apart;
 }
 
@@ -89,8 +116,8 @@ void respond_to(const Bodies& b, const ShapeTable& shapes, const PairMaterials& 
     for (int k = 0; k < found.pair.count; ++k) {
       const int p = found.pair.at[k];
       pairs.tilt_stiffness[p] =
-          forces[k] / (shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]).crown +
-                       shapes.part(b.shape[pairs.b[p]], pairs.part_b[p]).crown);
+          forces[k] / (part_of<Geometry, Law>(shapes, b.shape[pairs.a[p]], pairs.part_a[p]).crown +
+                       part_of<Geometry, Law>(shapes, b.shape[pairs.b[p]], pairs.part_b[p]).crown);
     }
   }
   found.pair.count = 0;
@@ -101,6 +128,7 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
                    const StepContext& c, const std::vector<double>& travel, Pairs& pairs) {
   const int begin = pairs.begin(Geometry::kind), end = pairs.end(Geometry::kind);
   if (begin == end) return;
+  if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
 #pragma omp parallel for schedule(dynamic) num_threads(c.threads) if (c.threads > 1)
   for (int s = 0; s < stretches; ++s) {
@@ -110,7 +138,7 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
         pairs.friction_loss[p] = pairs.viscous_loss[p] = 0;
         continue;
       }
-      find_contact<Geometry>(b, shapes, c, travel, pairs, p, found);
+      find_contact<Geometry, Law, friction>(b, shapes, materials, c, travel, pairs, p, found);
       if (found.pair.count == 8)
         respond_to<Geometry, Law, friction>(b, shapes, materials, c, pairs, found);
     }

@@ -12,10 +12,12 @@ namespace trackbed::dem {
 struct RoundForces {
   std::string law;
   bool friction = false;
+  bool flat_faces = false;  ///< of dilated polyhedra answer by their area (flat_contact.h)
   PairForces::Evaluate evaluate = nullptr;  ///< all kinds but polyhedra
 };
 
-/// Laws: "hertz_mindlin", "sun2015", "linear". Throws InputError naming the laws there are.
+/// Laws: "hertz_mindlin", "hertz_flat", "sun2015", "linear". Throws InputError naming the laws
+/// there are.
 RoundForces make_round_forces(const std::string& law, bool friction);
 std::vector<std::string> round_law_names();
 

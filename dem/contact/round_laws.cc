@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "dem/contact/laws/hertz_flat.h"
 #include "dem/contact/laws/hertz_mindlin.h"
 #include "dem/contact/laws/linear.h"
 #include "dem/contact/laws/sun2015.h"
@@ -10,7 +11,7 @@
 namespace trackbed::dem {
 namespace {
 
-using Laws = std::tuple<HertzMindlinLaw, Sun2015Law, LinearLaw>;
+using Laws = std::tuple<HertzMindlinLaw, HertzFlatLaw, Sun2015Law, LinearLaw>;
 
 template <class F>
 void for_each_law(F&& f) {
@@ -30,7 +31,7 @@ RoundForces make_round_forces(const std::string& name, bool friction) {
   for_each_law([&](auto law) {
     using Law = decltype(law);
     if (name == law.name)
-      forces = {name, friction,
+      forces = {name, friction, Law::flats,
                 friction ? &evaluate_round<Law, true> : &evaluate_round<Law, false>};
   });
   if (forces.evaluate) return forces;

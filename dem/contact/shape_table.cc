@@ -11,6 +11,8 @@
 namespace trackbed::dem {
 namespace {
 
+constexpr double kFlatCrown = 1e-3;
+
 int padded_to_eight(int n) { return (n + 7) / 8 * 8; }
 
 struct Plane {
@@ -75,6 +77,12 @@ int ShapeTable::add(const GrainShape& shape) {
       part.core = add_view(given.core, most);
     }
     parts_.push_back(part);
+  }
+  for (std::size_t k = flat_parts_.size(); k < parts_.size(); ++k) {
+    PartView part = parts_[k];
+    const double most = part.core.radius;
+    if (part.kind == Core::dilated) part.crown = kFlatCrown / most, part.mean_square = most * most;
+    flat_parts_.push_back(part);
   }
   part_first_.push_back(static_cast<int>(parts_.size()));
   shapes_.push_back(shape);

@@ -72,6 +72,11 @@ class ShapeTable {
   /// Parts of a shape: one, the body itself, for a plain polyhedron.
   int parts(int shape) const { return part_first_[shape + 1] - part_first_[shape]; }
   const PartView& part(int shape, int k) const { return parts_[part_first_[shape] + k]; }
+  /// The part for laws that let flat faces answer by their area (flat_contact.h): of a dilated
+  /// polyhedron's crown only so much is left that edges roll smoothly through parallel, 0.001 over
+  /// the core's greatest distance from the centroid, and r is the radius at the core's farthest
+  /// corner, elsewhere larger by less than 0.0005 of that distance.
+  const PartView& flat_part(int shape, int k) const { return flat_parts_[part_first_[shape] + k]; }
   /// Of the shape's `body`. Valid as long as this table or a copy of it lives.
   const ConvexView& view(int shape) const { return views_[shape]; }
   int size() const { return static_cast<int>(views_.size()); }
@@ -87,7 +92,7 @@ class ShapeTable {
 
   LinePool reals_;  // of each shape: nx, ny, nz, offset; stars; x, y, z; corners
   std::vector<std::shared_ptr<const Arrays>> arrays_;
-  std::vector<PartView> parts_;
+  std::vector<PartView> parts_, flat_parts_;
   std::vector<int> part_first_{0};
   std::vector<ConvexView> views_;
   std::vector<GrainShape> shapes_;

@@ -124,6 +124,9 @@ ExpectedStiffness expected_stiffness(const GrainShape& shape, const ContactExpec
     }
     const double overlap = expect.overlap * shape.radius;
     k.normal = std::max(k.normal, 2 * std::sqrt(part.radius * overlap));
+    if (expect.flat_faces && !part.core.faces.empty())
+      k.normal = std::max(
+          k.normal, kShaoFactor * std::sqrt(expect.area_share * largest_face(part.core)));
     if (part.crown > 0)
       k.tilt = std::max(k.tilt, 4. / 3 * std::sqrt(part.radius * overlap) * overlap / part.crown);
   }

@@ -27,6 +27,7 @@ struct ContactExpectation {
   double area_share = 0.1;  ///< largest contact area / largest face of the grain
   double contacts = 6;      ///< as stiff as that, at one grain
   double overlap = 0.005;   ///< round contacts: overlap / bounding radius of the grain
+  bool flat_faces = false;  ///< those of dilated grains answer by their area (RoundForces)
 };
 
 /// A priori, for one grain on its neighbours:
@@ -34,7 +35,8 @@ struct ContactExpectation {
 /// E the largest modulus of the grain's material against any other, A_face its largest face, r its
 /// bounding radius, kappa the tangential ratio when there is friction. Held bodies do not count.
 /// Spheres, clumps and dilated grains: k = 2 E sqrt(R overlap r), R the part's radius (Hertz), or
-/// the linear law's k; one crowned face more that rolls, with F/crown.
+/// the linear law's k; one crowned face more that rolls, with F/crown; flat faces that answer by
+/// their area as those of polyhedra.
 TimeStepLimit expected_limit(const Bodies&, const ShapeTable&, const PairMaterials&,
                              const ContactExpectation&);
 

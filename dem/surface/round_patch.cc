@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "dem/contact/deepest_balls.h"
+#include "dem/contact/laws/hertz_flat.h"
 #include "dem/contact/laws/hertz_mindlin.h"
 #include "dem/contact/laws/linear.h"
 #include "dem/contact/laws/sun2015.h"
@@ -175,11 +176,13 @@ EvaluatePatch instance(bool friction) {
 }  // namespace
 
 EvaluatePatch make_round_patch_forces(const std::string& law, bool friction) {
-  if (law == HertzMindlinLaw::name) return instance<HertzMindlinLaw>(friction);
+  if (law == HertzMindlinLaw::name || law == HertzFlatLaw::name)
+    return instance<HertzMindlinLaw>(friction);
   if (law == Sun2015Law::name) return instance<Sun2015Law>(friction);
   if (law == LinearLaw::name) return instance<LinearLaw>(friction);
   throw InputError("contact law '" + law + "': round grains on surfaces have " +
-                   HertzMindlinLaw::name + ", " + Sun2015Law::name + ", " + LinearLaw::name);
+                   HertzMindlinLaw::name + ", " + HertzFlatLaw::name + ", " + Sun2015Law::name +
+                   ", " + LinearLaw::name);
 }
 
 }  // namespace trackbed::dem

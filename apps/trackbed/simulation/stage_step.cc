@@ -64,7 +64,9 @@ void set_step(Run& run, double dt) {
 void choose_step(Run& run, const Stage& stage) {
   const NumericsScene& n = run.scene.numerics;
   const coupling::World& w = run.world;
-  const Limits limits = {dem::expected_limit(w.bodies, w.shapes, w.materials, {}),
+  dem::ContactExpectation expect;
+  expect.flat_faces = w.round_forces.flat_faces;
+  const Limits limits = {dem::expected_limit(w.bodies, w.shapes, w.materials, expect),
                          coupling::measured_limit(w, run.threads)};
   double dt = stage.margin * std::min(limits.expected.dt, 2 / limits.now.omega);
   const int per_exchange = coupling::steps_per_exchange(w);

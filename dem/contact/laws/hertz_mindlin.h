@@ -18,6 +18,7 @@ namespace trackbed::dem {
 
 struct HertzMindlinLaw {
   static constexpr const char* name = "hertz_mindlin";
+  static constexpr bool flats = false;  ///< flat faces answer by their area
   template <class Number>
   BallResponseOf<Number> operator()(const BallContactOf<Number>& b,
                                     const BallMaterialOf<Number>& m) const {

@@ -14,6 +14,7 @@ namespace trackbed::dem {
 
 struct LinearLaw {
   static constexpr const char* name = "linear";
+  static constexpr bool flats = false;
   template <class Number>
   BallResponseOf<Number> operator()(const BallContactOf<Number>& b,
                                     const BallMaterialOf<Number>& m) const {

@@ -16,6 +16,7 @@ namespace trackbed::dem {
 
 struct Sun2015Law {
   static constexpr const char* name = "sun2015";
+  static constexpr bool flats = false;
   template <class Number>
   BallResponseOf<Number> operator()(const BallContactOf<Number>& b,
                                     const BallMaterialOf<Number>& m) const {

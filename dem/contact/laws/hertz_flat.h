@@ -1,0 +1,13 @@
+// Hertz and Mindlin, with flat faces of dilated polyhedra that answer by the area on which they meet
+// (contact/flat_contact.h). On all other contacts, and on deforming surfaces, it is hertz_mindlin.
+#pragma once
+#include "dem/contact/laws/hertz_mindlin.h"
+
+namespace trackbed::dem {
+
+struct HertzFlatLaw : HertzMindlinLaw {
+  static constexpr const char* name = "hertz_flat";
+  static constexpr bool flats = true;
+};
+
+}  // namespace trackbed::dem
