@@ -102,9 +102,18 @@ bool take_recommendation(Study& study) {
   return true;
 }
 
+/// The same study: without its options a resumed one would be another.
 int stopped(const CostOptions& o, const std::string& folder) {
-  std::fprintf(stderr, "trackbed: stopped; go on with: trackbed cost %s --output %s --resume\n",
-               o.scene.c_str(), folder.c_str());
+  std::string command = "trackbed cost " + o.scene + " --output " + folder;
+  const auto add = [&](const char* option, const std::vector<std::string>& values) {
+    for (const auto& value : values) command += std::string(" ") + option + " '" + value + "'";
+  };
+  if (o.effects) command += " --effects";
+  add("--set", o.set), add("--knobs", o.knobs), add("--pairs", o.pairs);
+  add("--tolerance", o.tolerances);
+  command += " --seeds " + std::to_string(o.seeds);
+  if (o.threads > 0) command += " --threads " + std::to_string(o.threads);
+  std::fprintf(stderr, "trackbed: stopped; go on with: %s --resume\n", command.c_str());
   return 128 + stop_signal();
 }
 
