@@ -3,6 +3,8 @@
 #pragma once
 #include <omp.h>
 
+#include <algorithm>
+
 #include "dem/contact/friction.h"
 #include "dem/contact/overlap_feature.h"
 #include "dem/contact/pair_forces.h"
@@ -194,10 +196,12 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
   find_awake(travel, pairs);
   const int awake = static_cast<int>(pairs.awake.size());
-#pragma omp parallel for schedule(dynamic, 32) num_threads(c.threads) if (c.threads > 1)
+  constexpr int share = 32;  // of a thread at a time; the next pair beyond it may be another's
+#pragma omp parallel for schedule(dynamic, share) num_threads(c.threads) if (c.threads > 1)
   for (int k = 0; k < awake; ++k) {
-    if (k + 2 < awake) fetch_bodies(b, shapes, pairs, pairs.awake[k + 2]);
-    if (k + 1 < awake) fetch_shapes(b, shapes, pairs, pairs.awake[k + 1]);
+    const int end = std::min(awake, (k / share + 1) * share);
+    if (k + 2 < end) fetch_bodies(b, shapes, pairs, pairs.awake[k + 2]);
+    if (k + 1 < end) fetch_shapes(b, shapes, pairs, pairs.awake[k + 1]);
     evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
                                  pairs.workspaces[omp_get_thread_num()], pairs, pairs.awake[k]);
   }
