@@ -14,7 +14,7 @@ struct RealBed {
   Scene scene;
   double area = 0.1 * 0.1;
 
-  explicit RealBed(double mu) : scene(2e6, 0.5) {
+  explicit RealBed(double mu, int seed = 3) : scene(2e6, 0.5) {
     LibraryParameters p;
     p.count = 40;
     p.method = SieveMethod::equal_cube;
@@ -23,7 +23,7 @@ struct RealBed {
     for (auto& g : shapes) g = scaled(g, 0.025), radii.push_back(g.radius);
     PlacementSpace space;
     space.low = {0, 0, 0}, space.high = {0.1, 0.1, 0};
-    const Placement placed = place_loose(radii, space, {}, 20, 3);
+    const Placement placed = place_loose(radii, space, {}, 20, seed);
     PackedGrains grains;
     for (std::size_t i = 0; i < shapes.size(); ++i)
       grains.add(shapes[i], placed.centre[i], placed.turn[i]);
