@@ -114,6 +114,7 @@ void check_packing(const Scene& scene, const ParameterValues& values) {
   const std::string& start = scene.packing.start_from;
   if (!start.empty() && !std::filesystem::is_regular_file(start))
     check.refuse("Start from", "no such file (looked for next to the scene's file)");
+  if (scene.packing.origin.size() != 3) check.refuse("Origin", "three numbers are needed: x, y, z");
 }
 
 }  // namespace trackbed::apps

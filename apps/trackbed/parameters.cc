@@ -184,6 +184,10 @@ void add_packing_method(Section s) {
   s.text("Start from", "", "-",
          "exported packing (.csv or .off, trackbed pack --export) instead of drawn grains, "
          "relative to this file; empty = draw");
+  s.numbers("Origin", "0, 0, 0", "m", -1e7, 1e7,
+            "x, y, z of the scene's own origin (middle of the box, top of the subgrade) in the "
+            "packings that are read and exported, such as in coordinates of a survey; results are "
+            "about the scene's own");
   s.number("Target porosity", "-1", "-", -1, 0.999,
            "of quasi_vibration, by the height of the bed's centre of volume; "
            "negative = by relative density");

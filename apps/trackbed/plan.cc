@@ -11,6 +11,7 @@
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "apps/trackbed/simulation/materials.h"
+#include "apps/trackbed/simulation/replay.h"
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/simulation/zones.h"
@@ -101,6 +102,18 @@ void check_seam(const Layout& layout, const coupling::World& sample, double enla
                      " each)");
 }
 
+/// A run measures the limit of its own grains; what is far over the sample's is refused there.
+void check_time_step(const Scene& scene, const Stage& stage, double limit) {
+  const double given = scene.numerics.time_step;
+  if (given <= 1.5 * limit || is_replay(scene)) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "Numerics/Time step: %.3g s is over the stability limit of stage '%s' "
+                "(about %.3g s); %.3g s would do",
+                given, stage.name.c_str(), limit, stage.margin * limit);
+  throw InputError(text);
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, int threads) {
@@ -133,6 +146,7 @@ Plan make_plan(const Scene& scene, int threads) {
     sample.materials = make_materials(scene, stage.modulus, stage.friction);
     const double limit =
         dem::expected_limit(sample.bodies, sample.shapes, sample.materials, expect).dt;
+    check_time_step(scene, stage, limit);
     const double dt = given > 0 ? given : stage.margin * limit;
     const double rungs = stage.again ? static_cast<double>(scene.packing.friction_path.size()) : 1;
     const double usual = stage.name == "deposit"                     ? usual_deposit

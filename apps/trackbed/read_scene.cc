@@ -119,6 +119,7 @@ PackingScene packing(const Values& v) {
   PackingScene p{};
   p.method = v.text("Packing/Method");
   p.start_from = v.text("Packing/Start from");
+  p.origin = v.numbers("Packing/Origin");
   p.target_porosity = v.number("Packing/Target porosity");
   p.target_relative_density = v.number("Packing/Target relative density");
   p.friction_path = v.numbers("Packing/Friction path");

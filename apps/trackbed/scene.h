@@ -92,7 +92,8 @@ struct ContactScene {
 struct PackingScene {
   std::string method;      ///< "tamping" | "quasi_vibration" | "deposit"
   std::string start_from;  ///< exported packing (.csv, .off); empty = grains are drawn and poured
-  double target_porosity;  ///< of quasi-vibration; negative: by relative density
+  std::vector<double> origin;         ///< of the scene, in packings read and exported [m]
+  double target_porosity;             ///< of quasi-vibration; negative: by relative density
   double target_relative_density;     ///< 0 loosest, 1 densest
   std::vector<double> friction_path;  ///< its grain frictions, falling
   double porosity_tolerance;

@@ -506,6 +506,23 @@ class Packings(SceneTest):
         self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 3)
 
 
+    def test_packing_in_coordinates_of_a_survey(self):
+        """The scene's own origin lies a thousand kilometres off in the files: nothing else changes."""
+        origin = (1e6, -2e6, 300)
+        survey = {"Packing/Origin": "1e6, -2e6, 300"}
+        first = self.grains(self.pack("a", "--export", "csv"))
+        there = self.grains(self.pack("b", "--export", "csv", change=survey))
+        self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 1)  # it is the same packing
+        still = {"Packing/Method": "deposit", "Packing/Settle time": "1e-6", "Packing/Start from": "b/packing.csv"}
+        back = self.grains(self.pack("c", "--export", "csv", change={**still, **survey}))
+        for one, other, again in zip(first, there, back, strict=True):
+            for key, offset in zip(("x_m", "y_m", "z_m"), origin):
+                self.assertAlmostEqual(float(other[key]) - offset, float(one[key]), delta=5e-10)
+                self.assertAlmostEqual(float(again[key]) - offset, float(one[key]), delta=1e-6)
+        told = self.pack("d", change=still, exit_code=2).stderr
+        self.assertIn("outside the scene's container", told)
+        self.assertIn("Packing/Origin", self.pack("e", change={"Packing/Origin": "1, 2"}, exit_code=2).stderr)
+
     def test_grains_of_several_pieces(self):
         def box(low, high):
             return [[(low, high)[bit][axis] for axis, bit in enumerate(bits)]
@@ -833,8 +850,9 @@ class Refusals(SceneTest):
         self.assertIn("the scene has changed", line)
 
     def test_time_step_over_the_limit(self):
-        line = self.refused("run", "tiny.prm", "--output", "a", "--set=Numerics/Time step=1e-3")
-        self.assertRegex(line, r"stability limit .* would do")
+        for command in (("run", "tiny.prm", "--output", "a"), ("check", "tiny.prm")):
+            line = self.refused(*command, "--set=Numerics/Time step=1e-3")
+            self.assertRegex(line, r"stability limit .* would do")
 
 
 class GoesWrong(SceneTest):

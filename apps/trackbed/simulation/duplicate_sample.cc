@@ -26,14 +26,16 @@ void place_imported(Run& run) {
   const std::string& file = run.scene.packing.start_from;
   dem::PackedGrains grains = dem::read_packing(file);
   const Layout& l = run.layout;
+  const std::vector<double>& origin = run.scene.packing.origin;
   for (int i = 0; i < grains.size(); ++i) {
-    const dem::Vec3& x = grains.centre[i];
+    dem::Vec3& x = grains.centre[i];
+    x -= dem::Vec3(origin[0], origin[1], origin[2]);
     bool inside = x.z() > l.low.z();
     for (int k = 0; k < 2; ++k) inside = inside && x[k] >= l.low[k] && x[k] <= l.high[k];
     if (!inside)
       throw InputError(file + ": the centre of grain " + std::to_string(i) + " at (" +
                        shortest(x.x()) + ", " + shortest(x.y()) + ", " + shortest(x.z()) +
-                       ") m lies outside the scene's container (Packing/Start from)");
+                       ") m lies outside the scene's container (Packing/Start from, Origin)");
     if (grains.shape[i].sieve_size <= 0)
       grains.shape[i].sieve_size = dem::sieve_size(
           grains.shape[i].body, dem::parse_sieve_method(run.scene.grains.sieve_method));

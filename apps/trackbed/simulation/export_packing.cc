@@ -36,7 +36,9 @@ std::vector<std::string> export_packing(const Scene& scene, const std::string& k
   Run run;
   run.scene = scene;
   load_run(kept, run);
-  const dem::PackedGrains grains = dem::packed_grains(run.world.bodies, run.world.shapes);
+  dem::PackedGrains grains = dem::packed_grains(run.world.bodies, run.world.shapes);
+  const std::vector<double>& origin = scene.packing.origin;
+  for (dem::Vec3& x : grains.centre) x += dem::Vec3(origin[0], origin[1], origin[2]);
   for (const std::string& format : formats) {
     files.push_back(folder + "/packing." + format);
     if (format == "csv")

@@ -7,7 +7,7 @@
 
 namespace trackbed::apps {
 
-/// Writes `folder`/packing.off, .vtu, .csv (with packing_shapes/), as `formats` name them; returns
+/// About Packing/Origin. Writes `folder`/packing.off, .vtu, .csv (with packing_shapes/), as `formats` name them; returns
 /// the files. Throws RunError when one cannot be written.
 std::vector<std::string> export_packing(const Scene&, const std::string& kept,
                                         const std::vector<std::string>& formats,

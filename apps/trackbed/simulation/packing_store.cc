@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/trackbed/csv.h"
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/hash.h"
 #include "apps/trackbed/simulation/grains.h"
@@ -13,7 +14,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr const char* kVersion = "packing 7";  // raised when packings come out differently
+constexpr const char* kVersion = "packing 8";  // raised when packings come out differently
 
 // Parameters that a packing does not depend on, by section or by key.
 bool matters(const std::string& key) {
@@ -31,7 +32,7 @@ bool matters(const std::string& key) {
     return key == "Numerics/Margin" || key == "Numerics/Packing margin" ||
            key == "Numerics/Time step";
   return key != "Packing/Folder" && key != "Packing/Reuse" && key != "Packing/Start from" &&
-         key != "Contact/Local damping";
+         key != "Packing/Origin" && key != "Contact/Local damping";
 }
 
 }  // namespace
@@ -41,9 +42,11 @@ std::string packing_name(const Scene& scene) {
   for (const auto& [key, value] : scene.values)
     if (matters(key)) text += "\n" + key + "=" + value;
   if (scene.test.on()) text += "\nwithout a sleeper";
-  if (!scene.packing.start_from.empty())
+  if (!scene.packing.start_from.empty()) {
+    for (const double x : scene.packing.origin) text += "\n" + shortest(x);
     for (const std::string& file : dem::packing_files(scene.packing.start_from))
       text += "\n" + read_text(file);
+  }
   // Stones by what they are, not by where.
   for (const std::string& file : library_parameters(scene).files) text += "\n" + read_text(file);
   return hash_name(text);
