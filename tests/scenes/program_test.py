@@ -506,6 +506,18 @@ class Packings(SceneTest):
         self.assertEqual(len(list((self.folder / "packings").glob("*.h5"))), 3)
 
 
+    def test_shoulders_leave_the_bed_its_depth(self):
+        """Sleeper 0.07 m long, crest 0.02 m beyond its ends, sides of 1:1 down to the subgrade."""
+        change = {"Container/Length": "0.26", "Container/Shoulder width": "0.02", "Container/Shoulder slope": "1"}
+        grains = self.grains(self.pack("a", "--export", "csv", change=change))
+        whole = self.grains(self.pack("b", "--export", "csv", change={"Container/Length": "0.26"}))
+        self.assertLess(len(grains), len(whole))
+        under = [[float(g["z_m"]) for g in bed if abs(float(g["x_m"])) < 0.03] for bed in (grains, whole)]
+        top, top_whole = (max(heights) for heights in under)
+        self.assertGreater(top, top_whole - 0.012)  # half a grain: nothing is taken from under the sleeper
+        for g in grains:
+            self.assertLess(abs(float(g["x_m"])), 0.055 + 0.07 + 0.012, g)
+
     def test_packing_in_coordinates_of_a_survey(self):
         """The scene's own origin lies a thousand kilometres off in the files: nothing else changes."""
         origin = (1e6, -2e6, 300)

@@ -59,9 +59,14 @@ void pour_grains(Run& run, const GrainBatch& batch, bool beside) {
   if (c.shape == "cylinder") space.radius = dem::prism_apothem(0.5 * c.length, c.sides);
   if (!batch.zone.empty()) space.zones = zone_rectangles(run.scene, l);
   dem::PlacedSpheres present;
-  if (beside)
+  if (beside) {
     space.blocks.push_back(
         {{l.sleeper_low_x, l.sleeper_low_y, 0}, {l.sleeper_high_x, l.sleeper_high_y, 0}});
+    // Onto the crest of the shoulders; what rolls off it is trimmed.
+    const double crest = half_width(run.scene, 0, c.fill_height);
+    space.low.x() = std::max(space.low.x(), -crest);
+    space.high.x() = std::min(space.high.x(), crest);
+  }
   for (int i = 0; i < w.bodies.grains; ++i) {
     present.centre.push_back(w.bodies.x[i]);
     present.radius.push_back(w.shapes.shape(w.bodies.shape[i]).radius);
@@ -137,11 +142,16 @@ void add_plate(Run& run) {
   run.actors.plate = true;
 }
 
+double sleeper_base_on(const Run& run) {
+  const Layout& l = run.layout;
+  return kClearance + highest_grain(run, l.sleeper_low_x, l.sleeper_high_x, l.sleeper_low_y,
+                                    l.sleeper_high_y);
+}
+
 void add_rigid_sleeper(Run& run) {
   const Layout& l = run.layout;
   const SleeperScene& s = run.scene.sleeper;
-  const double base = kClearance + highest_grain(run, l.sleeper_low_x, l.sleeper_high_x,
-                                                 l.sleeper_low_y, l.sleeper_high_y);
+  const double base = sleeper_base_on(run);
   const Vec3 low(l.sleeper_low_x, l.sleeper_low_y, base);
   const Vec3 high(l.sleeper_high_x, l.sleeper_high_y, base + s.height);
   const double pad = s.pad_thickness / s.height;
@@ -161,7 +171,7 @@ void remove_moving_body(Run& run) {
 void trim_shoulders(Run& run) {
   if (run.scene.container.shoulder_width == 0) return;
   const dem::Bodies& b = run.world.bodies;
-  const double base = run.actors.sleeper_base;
+  const double base = run.actors.rigid_sleeper ? run.actors.sleeper_base : sleeper_base_on(run);
   std::vector<int> outside;
   for (int i = 0; i < b.grains; ++i) {
     const Vec3& x = b.x[i];

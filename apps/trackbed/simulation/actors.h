@@ -32,7 +32,8 @@ void add_rigid_sleeper(Run&);
 /// Takes plate or rigid sleeper away.
 void remove_moving_body(Run&);
 
-/// Removes grains whose centre lies outside the ballast's cross-section.
+/// Removes grains whose centre lies outside the ballast's cross-section, about the sleeper's base:
+/// where it is, or where it will be put.
 void trim_shoulders(Run&);
 
 /// Builds the structures that the scene names, where the packing's rigid sleeper and floor are,

@@ -27,12 +27,13 @@ Layout make_layout(const Scene& s) {
   l.sleeper_low_y = -0.5 * s.sleeper.width;
   l.sleeper_high_y = 0.5 * s.sleeper.width;
 
-  // Areas of the cross-section by slices: below the sleeper's base, and beside the sleeper.
+  // Below the sleeper's base the box is filled to its walls, and shoulders are cut out of that bed.
+  const double below = c.length * c.depth;
+  // Area of the cross-section beside the sleeper, by slices.
   const int slices = 1000;
-  double below = 0, beside = 0;
+  double beside = 0;
   for (int k = 0; k < slices; ++k) {
     const double z = (k + 0.5) / slices;
-    below += 2 * half_width(s, c.depth, z * c.depth) * c.depth / slices;
     beside += 2 * half_width(s, c.depth, c.depth + z * c.fill_height) * c.fill_height / slices;
   }
   const double sleeper =
