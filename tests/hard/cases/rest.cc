@@ -142,7 +142,7 @@ Measured closed_path(const Setting& set) {
 
 Measured turned_pair(const Setting& set) {
   Scene s = flat(set, 10, 1e-3 * kSize);
-  return {change_of_a_turned_pair(s, 1e-5 * kSize), 1e-8};
+  return {change_of_a_turned_pair(s, 1e-3 * kSize), 1e-10};
 }
 
 }  // namespace

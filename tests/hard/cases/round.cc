@@ -180,8 +180,8 @@ Measured foot_over_foot(const Setting& set) {
 }
 
 Measured turned_pair(const Setting& set) {
-  Scene s = standing(set, 10, at_depth(set, 1e-3 * kSize));
-  return {change_of_a_turned_pair(s, 1e-5 * kSize), 1e-8};
+  Scene s = standing(set, 10, at_depth(set, 1e-2 * kSize));
+  return {change_of_a_turned_pair(s, 1e-3 * kSize), 1e-10};
 }
 
 // Everything 1 km away, and the seam of a period between grain and floor's middle.
