@@ -109,6 +109,14 @@ bool nearest_on(const PartView& part, const CoreFeature& f, const Vec3& p, doubl
   return d > apart && vertex_is_best(v, f.index, way / d + part.crown * y);
 }
 
+// The balls at x of a and y of b, each in its body's axes, d apart.
+void take_radii(const PartView& a, const Vec3& x, const PartView& b, const Vec3& y, double d,
+                DeepestBalls& out) {
+  out.ra = radius_at(a, x);
+  out.rb = radius_at(b, y);
+  out.overlap = out.ra + out.rb - d;
+}
+
 // A vertex of `own` and any feature of `other`; `apart` is other's centre from own's. World axes:
 // x of own about its centre, y of other about own's centre.
 bool from_vertex(const PartView& own, const Mat3& R, int i, const PartView& other, const Mat3& S,
@@ -121,9 +129,7 @@ bool from_vertex(const PartView& own, const Mat3& R, int i, const PartView& othe
   out.n = S * (way / d);
   if (!vertex_is_best(own.core, i, own.crown * at - R.transpose() * out.n)) return false;
   out.y = out.x + d * out.n;
-  out.ra = radius_at(own, at);
-  out.rb = radius_at(other, y);
-  out.overlap = out.ra + out.rb - d;
+  take_radii(own, at, other, y, d, out);
   return true;
 }
 
@@ -156,9 +162,7 @@ bool edge_on_edge(const PartView& a, const Mat3& Ra, const PartView& b, const Po
     return false;
   out.x = from_a + s * ua;
   out.y = out.x + d * out.n;
-  out.ra = radius_at(a, x);
-  out.rb = radius_at(b, y);
-  out.overlap = out.ra + out.rb - d;
+  take_radii(a, x, b, y, d, out);
   return true;
 }
 
@@ -226,9 +230,7 @@ bool on_face(const PartView& own, const Mat3& R, const CoreFeature& on_own, cons
   } else if (!(along.dot(out.n) > 0) || !within_face(own.core, on_own.index, own_normal, x)) {
     return false;  // else x might be the farthest point of the back
   }
-  out.ra = radius_at(own, x);
-  out.rb = radius_at(other, y);
-  out.overlap = out.ra + out.rb - d;
+  take_radii(own, x, other, y, d, out);
   return true;
 }
 

@@ -134,7 +134,7 @@ double work_of_a_circle(const Setting& set, bool corner) {
   return stored > 0 ? std::abs(work) / stored : HUGE_VAL;
 }
 Measured closed_path(const Setting& set) {
-  // hertz_flat, whose small overlaps are clipped, not solved: 2e-10.
+  // hertz_flat leaves 2e-10, the cause is not known.
   return {std::max(work_of_a_circle(set, false), work_of_a_circle(set, true)),
           set.law == "hertz_flat" ? 1e-9 : 1e-10};
 }
