@@ -3,7 +3,6 @@
 #include "dem/contact/eight.h"
 #include "dem/contact/face_prism.h"
 #include "dem/contact/laws/stored_energy.h"
-#include "dem/contact/pressure.h"
 
 namespace trackbed::dem {
 namespace {
@@ -51,7 +50,7 @@ struct Side {
 
 bool flat_contact(const PartView& a, const Mat3& Ra, const PartView& b, const Pose& pose,
                   const DeepestBalls& balls, const PairMaterial& material, OverlapWorkspace& work,
-                  FlatContact& out) {
+                  NormalContact& out) {
   // How thick the bodies' common slab along n is: the cores' own farthest points along n lie past x
   // and y by crown/4 R^2 at most, R their distance from the centre.
   const double overlap = balls.overlap + (a.radius - balls.ra) + (b.radius - balls.rb) +
@@ -73,10 +72,7 @@ bool flat_contact(const PartView& a, const Mat3& Ra, const PartView& b, const Po
   if (!(moments.volume > 0)) return false;
   out.shape = make_shape(moments, work);
   out.response = StoredEnergyLaw()(out.shape, material);
-  const PressureForce f = integrate_pressure(work, work.a_pieces, out.shape, out.response);
-  out.force = -(frame.axes * f.force);
-  out.couple = -(frame.axes * f.moment);
-  out.centroid = frame.axes * out.shape.centroid + frame.origin;
+  set_force(integrate_pressure(work, work.a_pieces, out.shape, out.response), -1, frame, out);
   return true;
 }
 

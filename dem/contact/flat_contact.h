@@ -14,21 +14,14 @@
 // So most contacts cost one look at the normals.
 #pragma once
 #include "dem/contact/deepest_balls.h"
-#include "dem/contact/laws/pressure_law.h"
+#include "dem/contact/normal_contact.h"
 
 namespace trackbed::dem {
 
-struct FlatContact {
-  OverlapShape shape;  ///< frame axes, third near n
-  NormalResponse response;
-  Vec3 force, couple;  ///< on a [N], about the centroid [N m]; world axes
-  Vec3 centroid;       ///< from a's centre [m]
-};
-
 /// As deepest_balls() of two polyhedra, one of them dilated (ShapeTable::flat_part), `balls` its
-/// result. False when no flat
-/// parts overlap.
+/// result; the centroid is from a's centre. False when no flat parts overlap.
 bool flat_contact(const PartView& a, const Mat3& Ra, const PartView& b, const Pose&,
-                  const DeepestBalls& balls, const PairMaterial&, OverlapWorkspace&, FlatContact&);
+                  const DeepestBalls& balls, const PairMaterial&, OverlapWorkspace&,
+                  NormalContact&);
 
 }  // namespace trackbed::dem

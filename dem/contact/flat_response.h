@@ -22,7 +22,7 @@ inline double contact_mass(const Bodies& b, int i, int j) {
 template <class Law, bool friction>
 void respond_flat(const Bodies& b, const PairMaterial& material,
                   const BallContactOf<double>& contact, const Vec3& n, const Vec3& at,
-                  const FlatContact& flat, const Vec3& apart, Pairs& pairs, int p) {
+                  const NormalContact& flat, const Vec3& apart, Pairs& pairs, int p) {
   const int i = pairs.a[p], j = pairs.b[p];
   const BallResponseOf<double> ball = Law()(contact, ball_material(material));
   const Vec3 of_balls = -ball.elastic * n, elastic = of_balls + flat.force;

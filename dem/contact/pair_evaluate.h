@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "dem/contact/friction.h"
+#include "dem/contact/normal_contact.h"
 #include "dem/contact/overlap_feature.h"
 #include "dem/contact/pair_forces.h"
-#include "dem/contact/pressure.h"
 #include "dem/contact/release.h"
 #include "dem/contact/simple_contact.h"
 
@@ -25,25 +25,12 @@ inline double tilt_stiffness(const OverlapShape& s, double stiffness) {
 /// Angle between a frame's normal and the vector area's from which the frame is made anew [rad].
 inline constexpr double kFrameTurn = 1e-10;
 
-/// A contact's normal part, world axes but for the shape.
-struct NormalContact {
-  OverlapShape shape;
-  NormalResponse response;
-  OverlapFeature feature;
-  Vec3 force, couple;  ///< on a [N], about the centroid [N m]
-  Vec3 centroid;       ///< [m]
-};
-
 template <class Law>
 void normal_contact(const SimpleContact& s, const PairMaterial& material, NormalContact& c) {
   c.shape = s.shape;
   c.response = Law()(s.shape, material);
-  const PressureForce f = integrate_pressure(s.corner, s.corners, s.shape, c.response);
-  // The pressure over the whole boundary has neither force nor moment: Q and C commute.
-  const double sense = s.of_a ? -1 : 1;
-  c.force = s.frame.axes * (sense * f.force);
-  c.couple = s.frame.axes * (sense * f.moment);
-  c.centroid = s.frame.axes * s.shape.centroid + s.frame.origin;
+  set_force(integrate_pressure(s.corner, s.corners, s.shape, c.response), s.of_a ? -1 : 1, s.frame,
+            c);
 }
 
 /// From the overlap in `work`, as clipped. `axis` and the overlap are made anew where the law asks
@@ -63,11 +50,7 @@ bool normal_contact(const OverlapMoments& moments, const ContactFrame& frame,
     }
   }
   c.response = Law()(c.shape, material);
-  const PressureForce f = integrate_pressure(work, work.a_pieces, c.shape, c.response);
-  c.force = -(frame.axes * f.force);
-  c.couple = -(frame.axes * f.moment);
-  c.centroid = frame.axes * c.shape.centroid + frame.origin;
-  c.feature = work.feature;
+  set_force(integrate_pressure(work, work.a_pieces, c.shape, c.response), -1, frame, c);
   return true;
 }
 
@@ -86,10 +69,9 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   // last normal.
   Vec3& axis = pairs.axis[p];
   NormalContact contact;
-  contact.feature = {pairs.feature[p], pairs.faces_a[p], pairs.faces_b[p]};
+  OverlapFeature feature{pairs.feature[p], pairs.faces_a[p], pairs.faces_b[p]};
   SimpleContact simple;
-  if (contact.feature.code &&
-      simple_contact(va, pa, vb, pb, SimpleFeature::of(contact.feature.code), simple)) {
+  if (feature.code && simple_contact(va, pa, vb, pb, SimpleFeature::of(feature.code), simple)) {
     normal_contact<Law>(simple, material, contact);
   } else {
     OverlapMoments moments;
@@ -103,15 +85,16 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     const auto overlaps_again = [&] {
       frame = {pa.x + pairs.arm_a[p], axes_along(axis)};
       work.clear();
-      return overlap_again(va, pa, vb, pb, frame, contact.feature, work, moments);
+      return overlap_again(va, pa, vb, pb, frame, feature, work, moments);
     };
-    if (!(contact.feature.faces_a && overlaps_again()) && !(pairs.touching[p] && overlaps())) {
+    if (!(feature.faces_a && overlaps_again()) && !(pairs.touching[p] && overlaps())) {
       const double gap = separating_axis(va, pa, vb, pb, axis);
       if (gap > 0) pairs.wake[p] = travel[i] + travel[j] + gap;
       if (gap > 0 || !overlaps()) return release(pairs, p);
     }
     if (!normal_contact<Law>(moments, frame, work, material, overlaps, axis, contact))
       return release(pairs, p);
+    feature = work.feature;
   }
 
   const Vec3& normal = contact.force;
@@ -135,9 +118,9 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     pairs.friction_energy[p] = pairs.friction_loss[p] = 0;  // others may add
   }
   pairs.touching[p] = 1;
-  pairs.feature[p] = contact.feature.code;
-  pairs.faces_a[p] = contact.feature.faces_a;
-  pairs.faces_b[p] = contact.feature.faces_b;
+  pairs.feature[p] = feature.code;
+  pairs.faces_a[p] = feature.faces_a;
+  pairs.faces_b[p] = feature.faces_b;
   pairs.arm_a[p] = arm_a;
   pairs.arm_b[p] = arm_b;
   pairs.force[p] = force;

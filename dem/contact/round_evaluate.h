@@ -89,7 +89,7 @@ void find_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials
   const double radius = mean_radius(part_a.radius, part_b.radius);
   if constexpr (kFlats<Geometry, Law>) {
     const PairMaterial& material = materials(b.material[i], b.material[j]);
-    FlatContact flat;
+    NormalContact flat;
     if (flat_contact(part_a, b.R[i], part_b, {b.R[j], apart}, balls, material,
                      pairs.workspaces[omp_get_thread_num()], flat)) {
       const BallContactOf<double> contact{balls.overlap, radius, 0, contact_mass(b, i, j), c.dt};

@@ -4,11 +4,12 @@
 
 #include "contact_support.h"
 #include "dem/contact/deepest_balls.h"
-#include "motion_scene.h"
+#include "dilated_pair.h"
 
 namespace trackbed::dem {
 namespace {
 
+using test::place;
 using test::random_hull;
 using test::random_rotation;
 using test::rotation;
@@ -23,14 +24,6 @@ Scene scene(double friction = 0) {
   Scene s(kE, friction);
   s.context.gravity.setZero();
   return s;
-}
-
-// By hand, not by a step: no pair may sleep on.
-void place(Scene& s, int i, const Vec3& x, const Mat3& R) {
-  std::fill(s.pairs.wake.begin(), s.pairs.wake.end(), 0.0);
-  s.bodies.x[i] = x;
-  s.bodies.R[i] = R;
-  s.bodies.q[i] = Quat(R).normalized();
 }
 
 double energy_at(Scene& s) {

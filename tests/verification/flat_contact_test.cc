@@ -7,7 +7,7 @@
 
 #include "contact_support.h"
 #include "dem/contact/face_prism.h"
-#include "motion_scene.h"
+#include "dilated_pair.h"
 
 namespace trackbed::dem {
 namespace {
@@ -30,10 +30,7 @@ Scene scene(double friction = 0) {
 }
 
 void place(Scene& s, int i, const Vec3& x, const Mat3& R) {
-  std::fill(s.pairs.wake.begin(), s.pairs.wake.end(), 0.0);
-  s.bodies.x[i] = x;
-  s.bodies.R[i] = R;
-  s.bodies.q[i] = Quat(R).normalized();
+  test::place(s, i, x, R);
   s.prepare();
 }
 
@@ -138,7 +135,7 @@ TEST(FlatContact, overlap_of_a_tilted_prism_is_that_cut_by_hand) {
       const Pose floor{Mat3::Identity(), Vec3(0, 0, -20) - place};
       const DeepestBalls balls =
           deepest_balls(table.flat_part(0, 0), R, table.flat_part(1, 0), floor, Vec3::Zero(), axis);
-      FlatContact c;
+      NormalContact c;
       OverlapWorkspace work;
       const bool touches = flat_contact(table.flat_part(0, 0), R, table.flat_part(1, 0), floor,
                                         balls, test::material(kE), work, c);
@@ -192,7 +189,7 @@ TEST(FlatContact, no_face_is_left_out) {
       Vec3 axis = s.bodies.x[1];
       const DeepestBalls balls = deepest_balls(a, own.R, b, pose, Vec3::Zero(), axis);
       OverlapWorkspace work;
-      FlatContact c;
+      NormalContact c;
       const bool found = flat_contact(a, own.R, b, pose, balls, test::material(kE), work, c);
       double volume = 0;
       FacePrism p, q;
