@@ -1,11 +1,7 @@
 #include "fem/assembly.h"
 
-#include <cmath>
-
-#include "base/error.h"
+#include "fem/bed_integrals.h"
 #include "fem/element.h"
-#include "fem/supports.h"
-#include "fem/text.h"
 
 namespace trackbed::fem {
 namespace {
@@ -15,16 +11,6 @@ std::vector<int> unknowns_of(const Unknowns& unknowns, const int* nodes, int cou
   for (int i = 0; i < count; ++i)
     for (int unknown : unknowns.of_node[nodes[i]]) all.push_back(unknown);
   return all;
-}
-
-bool has_dashpots(const ElasticBodyParameters& p) {
-  return std::any_of(p.beds.begin(), p.beds.end(), [](const Bed& b) { return b.has_dashpots(); });
-}
-
-bool damps(const ElasticBodyParameters& p) {
-  bool any = has_dashpots(p);
-  for (const Material& m : p.materials) any |= m.rayleigh_mass > 0 || m.rayleigh_stiffness > 0;
-  return any;
 }
 
 // Row sums: positive for both orders (27 nodes of order 2: Simpson's weights).
@@ -39,48 +25,22 @@ void lump(dealii::FullMatrix<double>& mass) {
   }
 }
 
-// The bed with the springs and dashpots of an absorbing boundary on this material.
-Bed absorbing(Bed bed, const std::array<double, 3>& elastic) {
-  if (!bed.absorbing) return bed;
-  const auto [young, poisson, density] = elastic;
-  const double shear = young / (2 * (1 + poisson));
-  const double confined = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
-  bed.normal_dashpot += std::sqrt(density * confined);
-  bed.shear_dashpot += std::sqrt(density * shear);
-  if (bed.distance > 0) {
-    bed.normal_stiffness += 4. / 3 * shear / bed.distance;
-    bed.shear_stiffness += 2. / 3 * shear / bed.distance;
-  }
-  return bed;
-}
-
-void add_bed(const ElasticBodyParameters& p, const Bed& given, const Discretisation& body,
+void add_bed(const ElasticBodyParameters& p, const Bed& bed, const Discretisation& body,
              const Unknowns& unknowns, const std::vector<std::array<double, 3>>& elastic,
              Matrices& matrices, std::vector<double>& dashpots) {
-  const int id = find_boundary(body, p.name, "bed", given.boundary);
-  for (double value : {given.normal_stiffness, given.shear_stiffness, given.normal_dashpot,
-                       given.shear_dashpot, given.distance})
-    if (!(value >= 0))
-      throw InputError(
-          text(p.name, ": bed on '", given.boundary, "': ", value, ", must be 0 or more"));
-  const auto& pattern = matrices.pattern;
+  const int id = check_bed(p, bed, body);
   for (const Face& face : body.faces) {
     if (face.boundary != id) continue;
-    const Bed bed = absorbing(given, elastic[face.cell]);
+    const FaceSprings springs = face_springs(bed, body, face, elastic[face.cell]);
     const auto ids = unknowns_of(unknowns, face.nodes.data(), face.count);
-    for (const FacePoint& point : face_points(body, face))
-      for (std::size_t a = 0; a < ids.size(); ++a)
-        for (std::size_t b = 0; b < ids.size(); ++b) {
-          if (ids[a] < 0 || ids[b] < 0) continue;
-          const double normal = point.normal[a % 3] * point.normal[b % 3];
-          const double shear = (a % 3 == b % 3) - normal;
-          const double w = point.shape[a / 3] * point.shape[b / 3] * point.area;
-          const int place = pattern.place(ids[a], ids[b]);
-          matrices.stiffness[place] +=
-              w * (bed.normal_stiffness * normal + bed.shear_stiffness * shear);
-          if (!dashpots.empty())
-            dashpots[place] += w * (bed.normal_dashpot * normal + bed.shear_dashpot * shear);
-        }
+    const std::size_t n = ids.size();
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b) {
+        if (ids[a] < 0 || ids[b] < 0) continue;
+        const int place = matrices.pattern.place(ids[a], ids[b]);
+        matrices.stiffness[place] += springs.stiffness[n * a + b];
+        if (!dashpots.empty()) dashpots[place] += springs.dashpot[n * a + b];
+      }
   }
 }
 

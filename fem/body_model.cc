@@ -26,7 +26,10 @@ Discretisation make(const ElasticBodyParameters& p, Grid& grid) {
   return discretise(grid);
 }
 
-bool lumped(const ElasticBodyParameters& p, const Discretisation& body, const Unknowns& unknowns) {
+}  // namespace
+
+bool lumped_mass(const ElasticBodyParameters& p, const Discretisation& body,
+                 const Unknowns& unknowns) {
   for (const Bed& bed : p.beds) find_boundary(body, p.name, "bed", bed.boundary);
   const bool needed = p.scheme == TimeScheme::central_difference || p.scheme == TimeScheme::zhai;
   if (p.mass == Mass::consistent && needed)
@@ -36,14 +39,12 @@ bool lumped(const ElasticBodyParameters& p, const Discretisation& body, const Un
   return p.mass == Mass::lumped;
 }
 
-}  // namespace
-
 BodyModel::BodyModel(ElasticBodyParameters given)
     : p(std::move(given)),
       grid(checked(p).order),
       body(make(p, grid)),
       unknowns(number_unknowns(body, p.name, p.supports)),
-      assembled(assemble(p, grid, body, unknowns, lumped(p, body, unknowns))),
+      assembled(assemble(p, grid, body, unknowns, lumped_mass(p, body, unknowns))),
       surface(contact_surface(body, unknowns, p.name, p.contact)) {
   assembled.matrices.rigid = rigid_motions(body, unknowns);
   for (const Load& l : p.loads) patches.push_back(load_patch(body, p.name, l));

@@ -12,6 +12,10 @@
 
 namespace trackbed::fem {
 
+/// Whether the mass is lumped, as asked for or as the body needs it (see Mass). \throws InputError:
+/// an explicit scheme by name with consistent mass, an unknown boundary of a bed.
+bool lumped_mass(const ElasticBodyParameters&, const Discretisation&, const Unknowns&);
+
 struct BodyModel {
   ElasticBodyParameters p;
   Grid grid;

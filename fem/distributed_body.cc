@@ -1,7 +1,5 @@
 #include "fem/distributed_body.h"
 
-#include <petscksp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +7,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "fem/distributed_matrices.h"
+#include "fem/distributed_motion.h"
 #include "fem/load_patch.h"
 #include "fem/output.h"
 #include "fem/session.h"
@@ -43,19 +41,6 @@ bool first_rank() { return rank() == 0; }
 
 double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-const ElasticBodyParameters& checked(const ElasticBodyParameters& p) {
-  const auto refuse = [&](const char* what) {
-    throw InputError(
-        text(p.name, ": ", what, " cannot be shared by several ranks; run without mpirun"));
-  };
-  if (!p.beds.empty()) refuse("a bed or an absorbing boundary");
-  for (const Material& m : p.materials)
-    if (m.rayleigh_mass > 0 || m.rayleigh_stiffness > 0) refuse("Rayleigh damping");
-  if (p.scheme == TimeScheme::central_difference || p.scheme == TimeScheme::zhai)
-    refuse("an explicit time scheme by name");
-  return p;
-}
-
 }  // namespace
 
 // All functions here are called by all ranks together, unless they say otherwise.
@@ -63,24 +48,23 @@ struct DistributedBody::Parts {
   DistributedMatrices m;
   ContactSurface surface;
   std::vector<LoadPatch> patches;
-  Scheme scheme;
+  DistributedMotion motion;
   int number;  // among the bodies
 
-  DistributedVector u, v, a, f, force, work, rhs, surface_force, surface_before;
+  DistributedVector force, surface_force, surface_before, before, v_before, values;
   std::vector<DistributedVector> load_weight;  // of a positive force
   SurfaceExchange exchange;
-  std::unique_ptr<DistributedSolver> solver;
   std::vector<double> load, load_before;
-  double dt = 0, limit = 0, work_loads = 0, work_surface = 0, at_start = 0;
-  bool goes_explicitly = false;
+  // Ledger [J].
+  double work_loads = 0, work_surface = 0, damping = 0, boundary = 0, at_start = 0;
 
   explicit Parts(ElasticBodyParameters p)
       : m(std::move(p)),
         surface(contact_surface(m.body, m.unknowns, m.p.name, m.p.contact)),
-        scheme(m.p.newmark ? newmark() : generalised_alpha(m.p.rho_inf)),
+        motion(m),
         number(next_number++),
         exchange(m, surface.node) {
-    for (auto* x : {&u, &v, &a, &f, &force, &work, &rhs, &surface_force, &surface_before})
+    for (auto* x : {&force, &surface_force, &surface_before, &before, &v_before, &values})
       x->reinit(m);
     for (const Load& l : m.p.loads) {
       patches.push_back(load_patch(m.body, m.p.name, l));
@@ -92,17 +76,14 @@ struct DistributedBody::Parts {
     }
     load.assign(patches.size(), 0.);
     load_before = load;
-    if (is_static() && !m.held)
-      throw InputError(m.p.name + ": not held, so that no static answer exists; add supports");
-    if (m.lumped && !is_static()) limit = 0.9 * 2 / m.largest_frequency();
     if (inner(m.p.gravity, m.p.gravity) > 0) {
-      outer_force(f);
+      outer_force(motion.f);
       if (m.p.start_in_equilibrium && m.held)
-        DistributedSolver(m, m.stiffness, m.p.solver).solve(f, u);
-      else if (!is_static())
-        m.solve_mass(f, a);
+        motion.settle();
+      else if (!motion.is_static())
+        motion.start_free();
     }
-    start_ledger();
+    at_start = motion.kinetic() + motion.strain() + gravity();
   }
 
   void outer_force(DistributedVector& to) {
@@ -110,116 +91,60 @@ struct DistributedBody::Parts {
     for (std::size_t l = 0; l < load.size(); ++l) to.add_scaled(load[l], load_weight[l]);
   }
 
-  bool is_static() const { return m.p.scheme == TimeScheme::quasi_static; }
-  double kinetic() { return is_static() ? 0 : m.mass_product(v, work) / 2; }
-  double strain() { return m.stiffness_product(u, work) / 2; }
-  double gravity() { return -m.gravity.dot(u); }
-  void start_ledger() {
-    work_loads = work_surface = 0;
-    at_start = kinetic() + strain() + gravity();
-  }
-
-  void set_step(double step) {
-    dt = step;
-    goes_explicitly = dt <= limit;
-    if (is_static()) {  // one factor for all steps
-      if (!solver) solver = std::make_unique<DistributedSolver>(m, m.stiffness, m.p.solver);
-      return;
-    }
-    solver.reset();
-    if (goes_explicitly) return;
-    const double k = (1 - scheme.alpha_f) * scheme.beta * dt * dt;
-    solver = std::make_unique<DistributedSolver>(m, 1 - scheme.alpha_m, k, m.p.solver);
-  }
+  double gravity() { return -m.gravity.dot(motion.u); }
 
   // With the forces on the surface in `surface_force` and the loads set.
   void advance() {
     outer_force(force);
     force.add_scaled(1, surface_force);
-    work.copy(u);
-    const DistributedVector before = work;
-    if (is_static())
-      advance_statically();
-    else if (goes_explicitly)
-      advance_explicitly();
-    else
-      advance_implicitly();
-    work.copy(u);
-    work.add_scaled(-1, before);
+    before.copy(motion.u);
+    v_before.copy(motion.v);
+    motion.advance(force);
+    before.scale(-1);
+    before.add_scaled(1, motion.u);
+    const DistributedVector& moved = before;
     surface_before.add_scaled(1, surface_force);
-    work_surface += surface_before.dot(work) / 2;
+    work_surface += surface_before.dot(moved) / 2;
     surface_before.copy(surface_force);
     for (std::size_t l = 0; l < load.size(); ++l) {
       const double sum = load[l] + load_before[l];
-      if (sum != 0) work_loads += sum / 2 * load_weight[l].dot(work);
+      if (sum != 0) work_loads += sum / 2 * load_weight[l].dot(moved);
       load_before[l] = load[l];
     }
-    f.copy(force);
+    const DistributedMotion::Loss loss = motion.loss(moved, v_before);
+    boundary += loss.boundary;
+    damping += loss.all - loss.boundary;
   }
 
-  void advance_statically() {
-    v.copy(u);
-    solver->solve(force, u);
-    v.scale(-1);
-    v.add_scaled(1, u);
-    v.scale(1 / dt);
-  }
-
-  void advance_explicitly() {
-    u.add_scaled(dt, v);
-    u.add_scaled(0.5 * dt * dt, a);
-    m.multiply_stiffness(u, rhs);
-    v.add_scaled(0.5 * dt, a);
-    a.copy(force);
-    a.add_scaled(-1, rhs);
-    m.divide_by_mass(a);
-    v.add_scaled(0.5 * dt, a);
-  }
-
-  void advance_implicitly() {
-    const double alpha_m = scheme.alpha_m, alpha_f = scheme.alpha_f, beta = scheme.beta,
-                 gamma = scheme.gamma, w = 1 - alpha_f;
-    // rhs = w f₊ + α_f f − α_m M a − K (u + w Δt (v + Δt (½−β) a))
-    work.copy(u);
-    work.add_scaled(w * dt, v);
-    work.add_scaled(w * dt * dt * (0.5 - beta), a);
-    m.multiply_stiffness(work, rhs);
-    rhs.scale(-1);
-    rhs.add_scaled(w, force);
-    rhs.add_scaled(alpha_f, f);
-    m.multiply_mass(a, work);
-    rhs.add_scaled(-alpha_m, work);
-    work.copy(a);  // first guess
-    solver->solve(rhs, work);
-    u.add_scaled(dt, v);
-    u.add_scaled(dt * dt * (0.5 - beta), a);
-    u.add_scaled(dt * dt * beta, work);
-    v.add_scaled(dt * (1 - gamma), a);
-    v.add_scaled(dt * gamma, work);
-    a.copy(work);
-  }
-
-  // Surface values of u + h v + ½ h² a and v + h a (h = 0: of now), on rank 0.
-  void gather(double h, std::vector<Vec>& displacement, std::vector<Vec>& velocity) {
-    work.copy(u);
-    work.add_scaled(h, v);
-    work.add_scaled(0.5 * h * h, a);
-    exchange.gather(work, displacement);
-    work.copy(v);
-    work.add_scaled(h, a);
-    exchange.gather(work, velocity);
+  // Surface values on rank 0, of now or at t+Δt.
+  void gather(bool ahead, std::vector<Vec>& displacement, std::vector<Vec>& velocity) {
+    if (ahead) motion.predict(values, v_before);
+    exchange.gather(ahead ? values : motion.u, displacement);
+    exchange.gather(ahead ? v_before : motion.v, velocity);
   }
 
   StructureEnergy energy() {
     StructureEnergy e;
-    e.kinetic = kinetic(), e.strain = strain(), e.gravity = gravity();
+    e.kinetic = motion.kinetic(), e.strain = motion.strain(), e.gravity = gravity();
     e.work_loads = work_loads, e.work_surface = work_surface;
+    e.dissipated_damping = damping, e.dissipated_boundary = boundary;
     e.at_start = at_start;
-    e.numerical = e.work_loads + e.work_surface + e.at_start - e.kinetic - e.strain - e.gravity;
+    e.numerical = e.work_loads + e.work_surface + e.at_start - e.kinetic - e.strain - e.gravity -
+                  e.dissipated_damping - e.dissipated_boundary;
     return e;
   }
 
-  std::array<DistributedVector*, 5> state() { return {&u, &v, &a, &f, &surface_before}; }
+  std::vector<DistributedVector*> state() {
+    std::vector<DistributedVector*> all = motion.state();
+    all.push_back(&surface_before);
+    return all;
+  }
+  std::vector<double*> totals() {
+    return {&work_loads, &work_surface, &damping, &boundary, &at_start};
+  }
+  std::size_t state_size() {
+    return state().size() * m.unknowns.count + 2 * load.size() + totals().size();
+  }
 
   // Rank 0's share of an order.
   void order(double task, double value = 0, double extra = 0) const {
@@ -229,7 +154,6 @@ struct DistributedBody::Parts {
 
 DistributedBody::DistributedBody(ElasticBodyParameters p) : parts_(nullptr) {
   start_session();
-  checked(p);
   parts_ = std::make_unique<Parts>(std::move(p));
   bodies()[parts_->number] = this;
 }
@@ -241,40 +165,46 @@ DistributedBody::~DistributedBody() {
 }
 
 const SurfaceMesh& DistributedBody::surface() const { return parts_->surface.mesh; }
-double DistributedBody::explicit_limit() const { return parts_->limit; }
+double DistributedBody::explicit_limit() const { return parts_->motion.explicit_limit(); }
+double DistributedBody::largest_step() const { return parts_->motion.largest_step(); }
 int DistributedBody::loads() const { return static_cast<int>(parts_->patches.size()); }
 double DistributedBody::mass() const { return parts_->m.mass(); }
 double DistributedBody::least_surface_mass() const {
-  return parts_->is_static() ? std::numeric_limits<double>::infinity()
-                             : parts_->m.least_mass(parts_->surface.node);
+  return parts_->motion.is_static() ? std::numeric_limits<double>::infinity()
+                                    : parts_->m.least_mass(parts_->surface.node);
 }
 double DistributedBody::largest_frequency() const { return parts_->m.omega; }
 double DistributedBody::contact_bound(const std::vector<NodeSpring>& springs) const {
-  const double own = parts_->goes_explicitly ? 0.9 * 2 / parts_->limit : 0;
+  double own = 0;  // omega
+  if (parts_->motion.is_explicit())
+    own = (std::isfinite(largest_step()) ? 2 : 0.9 * 2) / explicit_limit();
   return Structure::contact_bound(springs) + own * own;
 }
 int DistributedBody::unknowns() const { return parts_->m.unknowns.count; }
-int DistributedBody::solver_iterations() const {
-  return parts_->solver ? parts_->solver->iterations() : 0;
-}
+int DistributedBody::solver_iterations() const { return parts_->motion.iterations(); }
 std::vector<int> DistributedBody::rank_unknowns() const { return parts_->m.rows_of_rank; }
 
 void DistributedBody::set_step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw InputError(text("time step of the structure: ", dt, " s given, must be positive"));
-  if (dt == parts_->dt) return;
+  if (dt > largest_step())
+    throw InputError(text("time step of the structure: ", dt, " s is over the limit ",
+                          largest_step(),
+                          " s of its explicit scheme; take a smaller one, a coarser "
+                          "mesh or an implicit scheme"));
+  if (dt == parts_->motion.step()) return;
   parts_->order(kSetStep, dt);
-  parts_->set_step(dt);
+  parts_->motion.set_step(dt);
 }
 
 void DistributedBody::predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const {
-  parts_->order(kGather, parts_->dt);
-  parts_->gather(parts_->dt, displacement, velocity);
+  parts_->order(kGather, 1);
+  parts_->gather(true, displacement, velocity);
 }
 
 void DistributedBody::motion(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const {
   parts_->order(kGather, 0);
-  parts_->gather(0, displacement, velocity);
+  parts_->gather(false, displacement, velocity);
 }
 
 void DistributedBody::set_load(int load, double newton) {
@@ -286,7 +216,7 @@ void DistributedBody::set_load(int load, double newton) {
 
 void DistributedBody::advance(const std::vector<Vec>& forces) {
   Parts& s = *parts_;
-  if (!(s.dt > 0)) throw RunError("structure: set_step() must come before advance()");
+  if (!(s.motion.step() > 0)) throw RunError("structure: set_step() must come before advance()");
   for (std::size_t i = 0; i < forces.size(); ++i)
     if (!std::isfinite(inner(forces[i], forces[i])))
       throw RunError(text(s.m.p.name, ": the contact force on surface node ", i,
@@ -302,7 +232,7 @@ Vec DistributedBody::load_displacement(int load) const {
   s.order(kMean, load);
   Vec mean{};
   for (const auto& [node, weight] : s.patches.at(load).weights)
-    for (int d = 0; d < 3; ++d) mean[d] += weight * s.u.own(s.m, node, d);
+    for (int d = 0; d < 3; ++d) mean[d] += weight * s.motion.u.own(s.m, node, d);
   MPI_Allreduce(MPI_IN_PLACE, mean.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   return mean;
 }
@@ -323,15 +253,15 @@ void DistributedBody::save(std::vector<double>& state) const {
   }
   state.insert(state.end(), s.load.begin(), s.load.end());
   state.insert(state.end(), s.load_before.begin(), s.load_before.end());
-  state.insert(state.end(), {s.work_loads, s.work_surface, s.at_start});
+  for (const double* total : s.totals()) state.push_back(*total);
 }
 
 void DistributedBody::load(const std::vector<double>& state) {
   Parts& s = *parts_;
   const std::size_t n = s.m.unknowns.count, loads = s.load.size();
-  if (state.size() != 5 * n + 2 * loads + 3)
+  if (state.size() != s.state_size())
     throw InputError(text(s.m.p.name, ": the saved state has ", state.size(),
-                          " numbers, this body needs ", 5 * n + 2 * loads + 3,
+                          " numbers, this body needs ", s.state_size(),
                           "; it belongs to another mesh or was written without mpirun"));
   s.order(kScatter, 0, 1);
   std::vector<double> copy = state;
@@ -345,15 +275,15 @@ void DistributedBody::load(const std::vector<double>& state) {
     std::copy_n(from, loads, l->begin());
     from += static_cast<std::ptrdiff_t>(loads);
   }
-  s.work_loads = from[0], s.work_surface = from[1], s.at_start = from[2];
+  for (double* total : s.totals()) *total = *from++;
 }
 
 void DistributedBody::write_vtu(const std::string& file) const {
   Parts& s = *parts_;
   s.order(kScatter, 0, 0);
-  const auto u = s.u.everywhere(s.m);
+  const auto u = s.motion.u.everywhere(s.m);
   s.order(kScatter, 1, 0);
-  const auto v = s.v.everywhere(s.m);
+  const auto v = s.motion.v.everywhere(s.m);
   if (first_rank()) write_fields(file, s.m.p, s.m.grid, s.m.body, s.m.at_nodes(u), s.m.at_nodes(v));
 }
 
@@ -397,10 +327,10 @@ void serve(const BuildTogether& build) {
       DistributedBody::Parts& s = *body.parts_;
       switch (task) {
         case kSetStep:
-          s.set_step(o.value);
+          s.motion.set_step(o.value);
           break;
         case kGather:
-          s.gather(o.value, unused, none);
+          s.gather(o.value > 0, unused, none);
           break;
         case kAdvance: {
           MPI_Bcast(s.load.data(), static_cast<int>(s.load.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
@@ -418,7 +348,7 @@ void serve(const BuildTogether& build) {
           if (o.extra == 0)
             s.state()[static_cast<std::size_t>(o.value)]->everywhere(s.m);
           else
-            body.load(std::vector<double>(5 * s.m.unknowns.count + 2 * s.load.size() + 3));
+            body.load(std::vector<double>(s.state_size()));
           break;
         default:
           throw RunError("an unknown order");

@@ -21,8 +21,7 @@ using BuildTogether =
 
 class DistributedBody final : public Structure {
  public:
-  /// As ElasticBody, by all ranks together. \throws InputError as ElasticBody, and for what is not
-  /// distributed: beds, Rayleigh damping, explicit time schemes by name.
+  /// As ElasticBody, by all ranks together. \throws InputError as ElasticBody.
   explicit DistributedBody(ElasticBodyParameters);
   ~DistributedBody() override;
 
@@ -37,7 +36,8 @@ class DistributedBody final : public Structure {
   Vec load_displacement(int load) const override;
   double mass() const override;
   double least_surface_mass() const override;
-  double largest_frequency() const override;
+  double largest_frequency() const override;  ///< 0 where the mass is not lumped
+  double largest_step() const override;
   double contact_bound(const std::vector<NodeSpring>&) const override;
   int unknowns() const override;
   StructureEnergy energy() const override;

@@ -7,6 +7,9 @@
 #include <limits>
 
 #include "base/error.h"
+#include "fem/bed_integrals.h"
+#include "fem/body_model.h"
+#include "fem/distributed_algebra.h"
 #include "fem/element.h"
 #include "fem/mesh.h"
 #include "fem/session.h"
@@ -51,7 +54,8 @@ DistributedMatrices::DistributedMatrices(ElasticBodyParameters given)
       gravity_force(new DistributedVector),
       gravity(*gravity_force) {
   held = free_motion(body, unknowns, p.beds).empty();
-  lumped = p.mass == Mass::lumped || (p.mass == Mass::automatic && held);
+  lumped = lumped_mass(p, body, unknowns);
+  damped = damps(p);
   const std::vector<int> owner_of_cell = partition(grid);
   const int n = body.nodes_per_cell, size = ranks();
   std::vector<int> owner(unknowns.count, size);
@@ -68,6 +72,7 @@ DistributedMatrices::DistributedMatrices(ElasticBodyParameters given)
   for (int i = 0; i < unknowns.count; ++i) row[i] = next[owner[i]]++;
   gravity.reinit(*this);
   assemble(owner_of_cell);
+  if (lumped) omega = largest_root(stiffness);
 }
 
 DistributedMatrices::~DistributedMatrices() {
@@ -76,6 +81,8 @@ DistributedMatrices::~DistributedMatrices() {
   if (ended) return;
   MatDestroy(&stiffness);
   MatDestroy(&consistent);
+  MatDestroy(&damping);
+  MatDestroy(&dashpots);
   VecDestroy(&diagonal);
 }
 
@@ -92,12 +99,15 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
   };
   make_matrix(stiffness);
   if (!lumped) make_matrix(consistent);
+  if (damped) make_matrix(damping);
+  if (has_dashpots(p)) make_matrix(dashpots);
   check(VecCreateMPI(MPI_COMM_WORLD, own_rows, count, &diagonal), p.name.c_str());
   node_mass.assign(body.nodes(), 0.);
 
   ElementIntegrals element(p, grid);
   std::vector<int> rows(3 * n);
-  std::vector<double> K(9 * n * n), M(9 * n * n);
+  std::vector<double> K(9 * n * n), M(9 * n * n), C(9 * n * n);
+  std::vector<std::array<double, 3>> elastic(owner_of_cell.size());  // E, ν, ρ
   std::size_t c = 0;
   std::vector<int> columns(3 * n);
   for (const auto& cell : grid.nodes.active_cell_iterators()) {
@@ -107,11 +117,9 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
     for (int a = 0; a < n; ++a)
       for (int d = 0; d < 3; ++d) {
         const int id = unknowns.of_node[body.cell_nodes[c * n + a]][d];
-        const int at = id < 0 ? -1 : row[id];  // PETSc leaves negative rows and columns out
-        const bool own = at >= first_row && at < first_row + own_rows;
-        columns[3 * a + d] = at;
-        rows[3 * a + d] = own ? at : -1;
-        any |= own;
+        columns[3 * a + d] = id < 0 ? -1 : row[id];  // PETSc leaves negative ones out
+        rows[3 * a + d] = own_row(id);
+        any |= rows[3 * a + d] >= 0;
       }
     const bool own_cell = owner_of_cell[c] == rank();
     if (!any && !own_cell) {
@@ -119,11 +127,25 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
       continue;
     }
     element.compute(cell);
+    elastic[c] = element.mean_elastic();
+    const Material& material = p.materials[cell->material_id()];
     for (int a = 0; a < 3 * n; ++a)
       for (int b = 0; b < 3 * n; ++b) {
         K[3 * n * a + b] = element.stiffness(a, b);
         M[3 * n * a + b] = a % 3 == b % 3 ? element.mass(a / 3, b / 3) : 0.;
       }
+    if (damped) {
+      for (int a = 0; a < 3 * n; ++a) {
+        double sum = 0;  // of the mass's row
+        for (int b = 0; b < 3 * n; ++b) sum += M[3 * n * a + b];
+        for (int b = 0; b < 3 * n; ++b) {
+          const double mass = lumped ? (a == b ? sum : 0) : M[3 * n * a + b];
+          C[3 * n * a + b] =
+              material.rayleigh_mass * mass + material.rayleigh_stiffness * K[3 * n * a + b];
+        }
+      }
+      MatSetValues(damping, 3 * n, rows.data(), 3 * n, columns.data(), C.data(), ADD_VALUES);
+    }
     MatSetValues(stiffness, 3 * n, rows.data(), 3 * n, columns.data(), K.data(), ADD_VALUES);
     if (!lumped)
       MatSetValues(consistent, 3 * n, rows.data(), 3 * n, columns.data(), M.data(), ADD_VALUES);
@@ -140,7 +162,8 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
     }
     ++c;
   }
-  for (Mat A : {stiffness, consistent}) {
+  add_beds(elastic);
+  for (Mat A : {stiffness, consistent, damping, dashpots}) {
     if (!A) continue;
     MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY);
     MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY);
@@ -150,6 +173,40 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
                 MPI_SUM, MPI_COMM_WORLD);
 }
 
+int DistributedMatrices::own_row(int unknown) const {
+  const int at = unknown < 0 ? -1 : row[unknown];
+  return at >= first_row && at < first_row + own_rows ? at : -1;
+}
+
+// Each rank its own rows, as in assemble(): it knows `elastic` of the cells that have any.
+void DistributedMatrices::add_beds(const std::vector<std::array<double, 3>>& elastic) {
+  for (const Bed& bed : p.beds) {
+    const int boundary = check_bed(p, bed, body);
+    for (const Face& face : body.faces) {
+      if (face.boundary != boundary) continue;
+      std::vector<int> rows, columns;
+      for (int i = 0; i < face.count; ++i)
+        for (const int id : unknowns.of_node[face.nodes[i]]) {
+          columns.push_back(id < 0 ? -1 : row[id]);
+          rows.push_back(own_row(id));
+        }
+      if (*std::max_element(rows.begin(), rows.end()) < 0) continue;
+      const FaceSprings springs = face_springs(bed, body, face, elastic[face.cell]);
+      const int n = 3 * face.count;
+      const auto add = [&](Mat A, const std::vector<double>& values) {
+        MatSetValues(A, n, rows.data(), n, columns.data(), values.data(), ADD_VALUES);
+      };
+      add(stiffness, springs.stiffness);
+      if (!dashpots) continue;
+      add(damping, springs.dashpot);
+      add(dashpots, springs.dashpot);
+    }
+  }
+}
+
+void DistributedMatrices::multiply_damping(const DistributedVector& x, DistributedVector& y) const {
+  MatMult(damping, x.v, y.v);
+}
 void DistributedMatrices::multiply_stiffness(const DistributedVector& x,
                                              DistributedVector& y) const {
   MatMult(stiffness, x.v, y.v);
@@ -181,10 +238,10 @@ double DistributedMatrices::stiffness_product(const DistributedVector& x,
   return work.dot(x);
 }
 
-// Power iteration on the lumped mass; a little more than what it finds.
-double DistributedMatrices::largest_frequency() {
-  DistributedVector x, y;
-  x.reinit(*this), y.reinit(*this);
+// Power iteration on the lumped mass.
+double DistributedMatrices::largest_root(Mat A) const {
+  DistributedVector x, y, mx;
+  for (auto* v : {&x, &y, &mx}) v->reinit(*this);
   std::vector<double> start(unknowns.count);
   for (int i = 0; i < unknowns.count; ++i) start[i] = std::sin(1. + 7.13 * i);
   x.take(*this, start);
@@ -192,25 +249,18 @@ double DistributedMatrices::largest_frequency() {
   for (int k = 0; k < 500; ++k) {
     PetscReal size = 0;
     VecNorm(x.v, NORM_2, &size);
+    if (!(size > 0)) break;
     x.scale(1 / size);
-    multiply_stiffness(x, y);
+    MatMult(A, x.v, y.v);
+    VecPointwiseMult(mx.v, diagonal, x.v);
+    const double now = y.dot(x) / mx.dot(x);
     divide_by_mass(y);
-    PetscScalar now = 0;
-    VecPointwiseMult(y.v, y.v, diagonal);
-    const double strain = y.dot(x);
-    divide_by_mass(y);
-    DistributedVector mass(x);
-    VecPointwiseMult(mass.v, diagonal, x.v);
-    now = strain / mass.dot(x);
     x.copy(y);
-    if (k > 20 && std::abs(now - value) < 1e-6 * now) {
-      value = now;
-      break;
-    }
+    const bool settled = k > 20 && std::abs(now - value) < 1e-6 * now;
     value = now;
+    if (settled) break;
   }
-  omega = 1.02 * std::sqrt(std::max(value, 0.));
-  return omega;
+  return 1.02 * std::sqrt(std::max(value, 0.));
 }
 
 double DistributedMatrices::mass() const {
@@ -237,212 +287,6 @@ std::vector<Vec> DistributedMatrices::at_nodes(const std::vector<double>& all) c
     for (int d = 0; d < 3; ++d)
       if (const int id = unknowns.of_node[i][d]; id >= 0) values[i][d] = all[id];
   return values;
-}
-
-DistributedVector::DistributedVector(const DistributedVector& x) {
-  VecDuplicate(x.v, &v);
-  VecCopy(x.v, v);
-}
-DistributedVector::~DistributedVector() {
-  PetscBool ended = PETSC_FALSE;
-  PetscFinalized(&ended);
-  if (!ended && v) VecDestroy(&v);
-}
-void DistributedVector::reinit(const DistributedMatrices& m) {
-  VecCreateMPI(MPI_COMM_WORLD, m.own_rows, m.unknowns.count, &v);
-  VecSet(v, 0);
-}
-double DistributedVector::dot(const DistributedVector& x) const {
-  PetscScalar sum = 0;
-  VecDot(v, x.v, &sum);
-  return sum;
-}
-void DistributedVector::add(const DistributedMatrices& m, int node, int d, double value) {
-  const int id = m.unknowns.of_node[node][d];
-  if (id < 0 || m.row[id] < m.first_row || m.row[id] >= m.first_row + m.own_rows) return;
-  PetscScalar* local = nullptr;
-  VecGetArray(v, &local);
-  local[m.row[id] - m.first_row] += value;
-  VecRestoreArray(v, &local);
-}
-double DistributedVector::own(const DistributedMatrices& m, int node, int d) const {
-  const int id = m.unknowns.of_node[node][d];
-  if (id < 0 || m.row[id] < m.first_row || m.row[id] >= m.first_row + m.own_rows) return 0;
-  const PetscScalar* local = nullptr;
-  VecGetArrayRead(v, &local);
-  const double value = local[m.row[id] - m.first_row];
-  VecRestoreArrayRead(v, &local);
-  return value;
-}
-std::vector<double> DistributedVector::everywhere(const DistributedMatrices& m) const {
-  std::vector<double> by_row(m.unknowns.count), all(m.unknowns.count);
-  std::vector<int> start(m.rows_of_rank.size(), 0);
-  for (std::size_t r = 1; r < start.size(); ++r) start[r] = start[r - 1] + m.rows_of_rank[r - 1];
-  const PetscScalar* local = nullptr;
-  VecGetArrayRead(v, &local);
-  MPI_Allgatherv(local, m.own_rows, MPI_DOUBLE, by_row.data(), m.rows_of_rank.data(), start.data(),
-                 MPI_DOUBLE, MPI_COMM_WORLD);
-  VecRestoreArrayRead(v, &local);
-  for (int i = 0; i < m.unknowns.count; ++i) all[i] = by_row[m.row[i]];
-  return all;
-}
-void DistributedVector::take(const DistributedMatrices& m, const std::vector<double>& all) {
-  PetscScalar* local = nullptr;
-  VecGetArray(v, &local);
-  for (int i = 0; i < m.unknowns.count; ++i)
-    if (m.row[i] >= m.first_row && m.row[i] < m.first_row + m.own_rows)
-      local[m.row[i] - m.first_row] = all[i];
-  VecRestoreArray(v, &local);
-}
-
-DistributedSolver::DistributedSolver(const DistributedMatrices& m, double mass_share,
-                                     double stiffness_share, SolverKind kind) {
-  check(MatDuplicate(m.stiffness, MAT_COPY_VALUES, &own_), m.p.name.c_str());
-  MatScale(own_, stiffness_share);
-  if (m.lumped) {
-    ::Vec scaled = nullptr;
-    VecDuplicate(m.diagonal, &scaled);
-    VecCopy(m.diagonal, scaled);
-    VecScale(scaled, mass_share);
-    MatDiagonalSet(own_, scaled, ADD_VALUES);
-    VecDestroy(&scaled);
-  } else {
-    MatAXPY(own_, mass_share, m.consistent, SAME_NONZERO_PATTERN);
-  }
-  set_up(m, own_, kind);
-}
-
-DistributedSolver::DistributedSolver(const DistributedMatrices& m, Mat only, SolverKind kind) {
-  set_up(m, only, kind);
-}
-
-void DistributedSolver::set_up(const DistributedMatrices& m, Mat A, SolverKind kind) {
-  MatSetOption(A, MAT_SPD, PETSC_TRUE);
-  check(KSPCreate(MPI_COMM_WORLD, &ksp_), m.p.name.c_str());
-  KSPSetOperators(ksp_, A, A);
-  PC pc = nullptr;
-  KSPGetPC(ksp_, &pc);
-  if (chosen_solver(kind, m.unknowns.count) == SolverKind::direct) {
-    KSPSetType(ksp_, KSPPREONLY);
-    PCSetType(pc, PCCHOLESKY);
-    PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
-  } else {
-    std::vector<::Vec> modes;
-    for (const auto& motion : rigid_motions(m.body, m.unknowns)) {
-      DistributedVector x;
-      x.reinit(m);
-      x.take(m, motion);
-      for (::Vec before : modes) {  // orthonormal, as PETSc wants them
-        PetscScalar share = 0;
-        VecDot(x.v, before, &share);
-        VecAXPY(x.v, -share, before);
-      }
-      PetscReal size = 0;
-      VecNorm(x.v, NORM_2, &size);
-      if (!(size > 1e-10)) continue;
-      x.scale(1 / size);
-      modes.push_back(x.v);
-      x.v = nullptr;
-    }
-    MatNullSpace near = nullptr;
-    MatNullSpaceCreate(MPI_COMM_WORLD, PETSC_FALSE, static_cast<int>(modes.size()), modes.data(),
-                       &near);
-    MatSetNearNullSpace(A, near);
-    MatNullSpaceDestroy(&near);
-    for (::Vec& x : modes) VecDestroy(&x);
-    KSPSetType(ksp_, KSPCG);
-    KSPSetInitialGuessNonzero(ksp_, PETSC_TRUE);
-    KSPSetTolerances(ksp_, 1e-10, 1e-300, PETSC_DEFAULT, 2000);
-    if (kind == SolverKind::cg_boomeramg) {
-      PCSetType(pc, PCHYPRE);
-      PCHYPRESetType(pc, "boomeramg");
-    } else {
-      PCSetType(pc, PCGAMG);
-    }
-  }
-  check(KSPSetUp(ksp_), m.p.name.c_str());
-}
-
-DistributedSolver::~DistributedSolver() {
-  PetscBool ended = PETSC_FALSE;
-  PetscFinalized(&ended);
-  if (ended) return;
-  KSPDestroy(&ksp_);
-  MatDestroy(&own_);
-}
-
-void DistributedSolver::solve(const DistributedVector& b, DistributedVector& x) {
-  check(KSPSolve(ksp_, b.v, x.v), "linear solve");
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  KSPGetConvergedReason(ksp_, &reason);
-  PetscInt count = 0;
-  KSPGetIterationNumber(ksp_, &count);
-  PC pc = nullptr;
-  KSPGetPC(ksp_, &pc);
-  KSPType type = nullptr;
-  KSPGetType(ksp_, &type);
-  iterations_ = std::string(type) == KSPPREONLY ? 0 : static_cast<int>(count);
-  if (reason < 0)
-    throw RunError(text("linear solve: no convergence after ", count, " iterations (PETSc reason ",
-                        static_cast<int>(reason), ")"));
-}
-
-SurfaceExchange::SurfaceExchange(const DistributedMatrices& m, const std::vector<int>& nodes) {
-  std::vector<PetscInt> rows;  // each once: images share an unknown
-  std::vector<int> seen(m.unknowns.count, -1);
-  for (const int node : nodes) {
-    std::array<int, 3> at{-1, -1, -1};
-    for (int d = 0; d < 3; ++d)
-      if (const int id = m.unknowns.of_node[node][d]; id >= 0) {
-        if (seen[id] < 0) {
-          seen[id] = static_cast<int>(rows.size());
-          rows.push_back(m.row[id]);
-        }
-        at[d] = seen[id];
-      }
-    place_.push_back(at);
-  }
-  const PetscInt count = rank() == 0 ? static_cast<PetscInt>(rows.size()) : 0;
-  IS from = nullptr;
-  ISCreateGeneral(PETSC_COMM_SELF, count, rows.data(), PETSC_COPY_VALUES, &from);
-  VecCreateSeq(PETSC_COMM_SELF, count, &list_);
-  VecScatterCreate(m.gravity.v, from, list_, nullptr, &scatter_);
-  ISDestroy(&from);
-}
-
-SurfaceExchange::~SurfaceExchange() {
-  PetscBool ended = PETSC_FALSE;
-  PetscFinalized(&ended);
-  if (ended) return;
-  VecDestroy(&list_);
-  VecScatterDestroy(&scatter_);
-}
-
-void SurfaceExchange::gather(const DistributedVector& x, std::vector<Vec>& values) {
-  VecScatterBegin(scatter_, x.v, list_, INSERT_VALUES, SCATTER_FORWARD);
-  VecScatterEnd(scatter_, x.v, list_, INSERT_VALUES, SCATTER_FORWARD);
-  if (rank() != 0) return;
-  const PetscScalar* list = nullptr;
-  VecGetArrayRead(list_, &list);
-  values.assign(place_.size(), Vec{});
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    for (int d = 0; d < 3; ++d)
-      if (place_[i][d] >= 0) values[i][d] = list[place_[i][d]];
-  VecRestoreArrayRead(list_, &list);
-}
-
-void SurfaceExchange::scatter(const std::vector<Vec>& forces, DistributedVector& y) {
-  VecSet(list_, 0);
-  PetscScalar* list = nullptr;
-  VecGetArray(list_, &list);
-  if (rank() == 0)
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      for (int d = 0; d < 3; ++d)
-        if (place_[i][d] >= 0) list[place_[i][d]] += forces[i][d];
-  VecRestoreArray(list_, &list);
-  VecSet(y.v, 0);
-  VecScatterBegin(scatter_, list_, y.v, ADD_VALUES, SCATTER_REVERSE);
-  VecScatterEnd(scatter_, list_, y.v, ADD_VALUES, SCATTER_REVERSE);
 }
 
 }  // namespace trackbed::fem

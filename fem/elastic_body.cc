@@ -59,7 +59,10 @@ struct ElasticBody::Parts : BodyModel {
   double product_of(const std::vector<double>& A, const std::vector<double>& x) const {
     return fem::product(matrices().pattern, A, x, x);
   }
-  void start_ledger() { totals = {0, 0, 0, kinetic() + strain() + gravity_potential()}; }
+  void start_ledger() {
+    totals = {};
+    totals.at_start = kinetic() + strain() + gravity_potential();
+  }
 };
 
 ElasticBody::ElasticBody(ElasticBodyParameters p) : parts_(new Parts(std::move(p))) {

@@ -44,13 +44,13 @@ double largest_damping(const Matrices& m) {
   return std::pow(largest_frequency({m.pattern, m.damping, m.mass}), 2);
 }
 
-double limit_of(const Scheme& scheme, const Matrices& m) {
-  const double omega = largest_frequency(m), xi = largest_damping(m) / (2 * omega);
-  if (scheme.kind == TimeScheme::zhai) return (2 * std::sqrt(1 + 4 * xi * xi) - 4 * xi) / omega;
+}  // namespace
+
+double stable_step(TimeScheme scheme, double omega, double damping) {
+  const double xi = damping / (2 * omega);
+  if (scheme == TimeScheme::zhai) return (2 * std::sqrt(1 + 4 * xi * xi) - 4 * xi) / omega;
   return 2 / omega * (std::sqrt(1 + xi * xi) - xi);
 }
-
-}  // namespace
 
 Stepper::Stepper(const Matrices& matrices, Scheme scheme, SolverKind kind)
     : matrices_(matrices), scheme_(scheme), kind_(kind) {
@@ -60,7 +60,8 @@ Stepper::Stepper(const Matrices& matrices, Scheme scheme, SolverKind kind)
   if (scheme.kind == TimeScheme::central_difference || scheme.kind == TimeScheme::zhai) {
     if (matrices.lumped.empty())
       throw InputError("central_difference and zhai need a body with lumped mass");
-    largest_step_ = limit_of(scheme, matrices);
+    largest_step_ =
+        stable_step(scheme.kind, largest_frequency(matrices), largest_damping(matrices));
   } else if (scheme.kind == TimeScheme::automatic && !matrices.lumped.empty() &&
              matrices.damping.empty()) {
     explicit_limit_ = 0.9 * 2 / largest_frequency(matrices);

@@ -58,6 +58,10 @@ struct Scheme {
 Scheme make_scheme(TimeScheme, Scheme implicit);
 Scheme zhai(double phi, double psi);
 
+/// Largest stable step [s] of central_difference or zhai, at the largest frequency ω [rad/s] and
+/// the largest 2ξω [1/s] of a body.
+double stable_step(TimeScheme, double omega, double damping);
+
 /// Average acceleration: β ¼, γ ½; keeps the energy of a linear system exactly.
 Scheme newmark();
 /// Second order, spectral radius → rho_inf at high frequency; 0 ≤ rho_inf ≤ 1 (InputError).

@@ -13,8 +13,26 @@ using namespace trackbed::fem;
 
 namespace {
 
-enum What { kSoil, kSleeper, kMultigrid, kStatic, kLast };
-constexpr double kSteps[] = {1e-5, 4e-5, 2e-3, 1e-3};  // the first without a solve
+enum What { kSoil, kSleeper, kMultigrid, kStatic, kDamped, kBed, kCentral, kZhai, kNewmark };
+// The first and the explicit schemes without a solve.
+constexpr double kSteps[] = {1e-5, 4e-5, 2e-3, 1e-3, 2e-4, 1e-4, 5e-6, 5e-6, 1e-5};
+bool is_explicit(int what) { return what == kSoil || what == kCentral || what == kZhai; }
+
+// Two soils with Rayleigh constants of their own, and waves that leave through sides and bottom.
+void damp(ElasticBodyParameters& p) {
+  Material m = p.materials[0];
+  m.name = "deep", m.young = 2e8, m.rayleigh_mass = 20, m.rayleigh_stiffness = 2e-5;
+  p.materials[0].rayleigh_mass = 5;
+  p.materials.push_back(m);
+  p.mesh.layers = {{.2, 2, 1}, {.1, 1, 0}};
+  p.supports.clear();
+  for (const char* side : {"bottom", "x_min", "x_max"}) {
+    Bed bed;
+    bed.boundary = side, bed.absorbing = true, bed.distance = .4;
+    p.beds.push_back(bed);
+  }
+  p.supports["y_min"] = p.supports["y_max"] = Support::roller;
+}
 
 ElasticBodyParameters parameters(int what) {
   ElasticBodyParameters p;
@@ -41,6 +59,16 @@ ElasticBodyParameters parameters(int what) {
   }
   if (what == kMultigrid) p.solver = SolverKind::cg_gamg;
   if (what == kStatic) p.scheme = TimeScheme::quasi_static;
+  if (what == kDamped || what == kCentral || what == kZhai) damp(p);
+  if (what == kCentral) p.scheme = TimeScheme::central_difference;
+  if (what == kZhai) p.scheme = TimeScheme::zhai;
+  if (what == kNewmark) p.scheme = TimeScheme::newmark;
+  if (what == kBed) {  // a sleeper on Kelvin and Voigt's ground, in its static place at first
+    p.supports.clear();
+    p.gravity = {0, 0, -9.81};
+    p.beds = {{"bottom", 5e7, 1e7, 3e4, 1e4}};
+    p.loads = {Load{"seat"}};
+  }
   return p;
 }
 
@@ -114,9 +142,15 @@ TEST_P(Ranks, GiveTheSameAnswer) {
   const StructureEnergy e = serial.energy(), f = shared.energy();
   for (const auto part :
        {&StructureEnergy::kinetic, &StructureEnergy::strain, &StructureEnergy::gravity,
-        &StructureEnergy::work_loads, &StructureEnergy::work_surface})
+        &StructureEnergy::work_loads, &StructureEnergy::work_surface,
+        &StructureEnergy::dissipated_damping, &StructureEnergy::dissipated_boundary})
     EXPECT_NEAR(f.*part, e.*part,
                 10 * close * (1e-9 + std::abs(e.kinetic) + std::abs(e.work_surface)));
+  if (what == kDamped || what == kCentral || what == kZhai) {
+    EXPECT_GT(e.dissipated_damping, 0);
+    EXPECT_GT(e.dissipated_boundary, 0);
+    EXPECT_NE(e.dissipated_damping, e.dissipated_boundary);
+  }
 }
 
 TEST_P(Ranks, GoOnFromASavedState) {
@@ -136,7 +170,7 @@ TEST_P(Ranks, GoOnFromASavedState) {
   bodies[0]->load(state);
   step(*bodies[0], 5, 5);
   bodies[0]->save(b);
-  if (ranks() == 1 || what == kSoil) {  // bitwise
+  if (ranks() == 1 || is_explicit(what)) {  // bitwise
     EXPECT_EQ(a, b);
     return;
   }
@@ -148,14 +182,23 @@ TEST_P(Ranks, GoOnFromASavedState) {
     EXPECT_NEAR(a[i], b[i], (what == kMultigrid ? 1e-7 : 1e-9) * size);
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, Ranks, testing::Values(kSoil, kSleeper, kMultigrid, kStatic));
+INSTANTIATE_TEST_SUITE_P(Bodies, Ranks,
+                         testing::Values(kSoil, kSleeper, kMultigrid, kStatic, kDamped, kBed,
+                                         kCentral, kZhai, kNewmark));
 
-TEST(Refused, WhatIsNotDistributed) {
-  ElasticBodyParameters p = parameters(kSoil);
-  p.materials[0].rayleigh_mass = 1;
-  EXPECT_THROW(DistributedBody{p}, InputError);
-  if (ranks() > 1) return;  // what follows is found by all ranks together
-  p = parameters(kSleeper);  // free
+TEST(Refused, AStepOverTheLimitOfAnExplicitScheme) {
+  for (const int what : {kCentral, kZhai}) {
+    ElasticBody serial(parameters(what));
+    ask_to_build(what, 0);
+    const auto bodies = build(what, 0);
+    EXPECT_NEAR(bodies[0]->largest_step(), serial.largest_step(), 1e-3 * serial.largest_step());
+    EXPECT_THROW(bodies[0]->set_step(1.1 * serial.largest_step()), InputError);
+  }
+}
+
+TEST(Refused, ABodyThatIsNotHeldAndStatic) {
+  if (ranks() > 1) return;                         // found by all ranks together
+  ElasticBodyParameters p = parameters(kSleeper);  // free
   p.scheme = TimeScheme::quasi_static;
   EXPECT_THROW(DistributedBody{p}, InputError);
 }
