@@ -35,8 +35,7 @@ void turn_pair(dem::Pairs& pairs, int p) {
   std::swap(pairs.a[p], pairs.b[p]);
   std::swap(pairs.part_a[p], pairs.part_b[p]);
   std::swap(pairs.arm_a[p], pairs.arm_b[p]);
-  for (auto* v : {&pairs.axis, &pairs.friction, &pairs.force, &pairs.couple, &pairs.normal_force})
-    (*v)[p] = -(*v)[p];
+  for (auto* v : {&pairs.axis, &pairs.friction, &pairs.force, &pairs.couple}) (*v)[p] = -(*v)[p];
   // Of the overlap's feature only what does not name both bodies is kept.
   pairs.feature[p] = 0;
   std::swap(pairs.faces_a[p], pairs.faces_b[p]);

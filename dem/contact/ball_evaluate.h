@@ -2,6 +2,7 @@
 // or without friction. Included by the file that makes the instances, nowhere else.
 #pragma once
 #include "dem/contact/eight_contacts.h"
+#include "dem/contact/fetch.h"
 #include "dem/contact/round_release.h"
 
 namespace trackbed::dem {
@@ -24,8 +25,8 @@ inline void find_overlaps(const Bodies& b, const ShapeTable& shapes, const StepC
   Vec3 centre[2][8];
   for (int k = 0; k < 8; ++k) {
     const int p = e.pair.at[k], i = e.a.at[k], j = e.b.at[k];
-    const PartView &u = shapes.part(b.shape[i], pairs.part_a[p]),
-                   &v = shapes.part(b.shape[j], pairs.part_b[p]);
+    const Ball &u = shapes.ball(b.shape[i], pairs.part_a[p]),
+               &v = shapes.ball(b.shape[j], pairs.part_b[p]);
     radius[0][k] = u.radius, radius[1][k] = v.radius;
     if (!centred) centre[0][k] = b.R[i] * u.centre, centre[1][k] = b.R[j] * v.centre;
   }
@@ -61,7 +62,7 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
       if (touching >> k & 1) {
         rest.add(p);
       } else {
-        pairs.wake[p] = travel[e.a.at[k]] + travel[e.b.at[k]] - beyond[k];
+        sleep(travel, -beyond[k], pairs, p);
         release_round(b, c, pairs, p);
       }
     }
@@ -71,6 +72,13 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
   }
   respond<Law, friction>(b, materials, c, e, pairs);
 }
+
+/// Bodies at b lie in no order: they are asked for before they are needed.
+[[gnu::always_inline]] inline void fetch_ball(const Bodies& b, const ShapeTable& shapes, int i) {
+  for (const Vec3* at : {&b.x[i], &b.v[i], &b.turn[i]}) fetch_lines(at, 1);
+  fetch_lines(&shapes.ball(b.shape[i], 0), 1);
+}
+inline constexpr int kAhead = 20;  // pairs
 
 /// All pairs of balls of one kind.
 template <class Law, bool friction>
@@ -89,10 +97,8 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
       awake.count = 0;
     };
     for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {
-      if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p]) {
-        pairs.friction_loss[p] = pairs.viscous_loss[p] = 0;
-        continue;
-      }
+      if (p + kAhead < end) fetch_ball(b, shapes, pairs.b[p + kAhead]);
+      if (asleep(travel, pairs, p)) continue;
       awake.add(p);
       if (awake.count == 8) evaluate();
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dem/contact/cell_grid.h"
 #include "dem/contact/eight_vectors.h"
@@ -35,6 +36,36 @@ bool outside_a_face(const ConvexView& body, const Mat3& R, const Vec3& x, const 
 
 bool both_held(const Bodies& b, int i, int j) {
   return b.freedom[i] == kFixed && b.freedom[j] == kFixed;
+}
+
+/// Indices of the pairs by their keys. Within a kind two runs are sorted already (see Pairs).
+std::vector<int> sorted_by_key(const Pairs& pairs) {
+  std::vector<int> order(pairs.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto less = [&](int p, int q) { return pairs.key(p) < pairs.key(q); };
+  for (int kind = 0; kind < kPairKinds; ++kind) {
+    const auto begin = order.begin() + pairs.kind_first[kind],
+               end = order.begin() + pairs.kind_first[kind + 1];
+    std::inplace_merge(begin, std::is_sorted_until(begin, end, less), end, less);
+  }
+  return order;
+}
+
+/// Puts first, within each kind, the pairs of bodies that touch in some of their parts. `order`:
+/// indices of pairs by their keys.
+void touching_first(const Pairs& pairs, std::vector<int>& order) {
+  std::vector<char> touch(pairs.size(), 0);  // of the bodies
+  const auto same_bodies = [&](int p, int q) {
+    return pairs.kind[p] == pairs.kind[q] && pairs.a[p] == pairs.a[q] && pairs.b[p] == pairs.b[q];
+  };
+  for (auto at = order.begin(); at != order.end();) {
+    const auto next = std::find_if(at, order.end(), [&](int p) { return !same_bodies(*at, p); });
+    const bool any = std::any_of(at, next, [&](int p) { return pairs.touching[p]; });
+    for (; at != next; ++at) touch[*at] = any;
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int p, int q) {
+    return std::pair(pairs.kind[p], !touch[p]) < std::pair(pairs.kind[q], !touch[q]);
+  });
 }
 
 double default_skin(const Bodies& b, const ShapeTable& shapes) {
@@ -92,7 +123,10 @@ void Candidates::rebuild(const Bodies& b, const ShapeTable& shapes, const StepCo
   keys_.clear();
   find_part_pairs(b, shapes, found_, c.period, state_.skin, keys_);
   carry_history(b.size(), pairs);
-  drop_far_pairs(b, shapes, c, pairs);
+  std::vector<int> kept = near_pairs(b, shapes, c, pairs);
+  touching_first(pairs, kept);
+  pairs.rearrange(kept);
+  pairs.index_bodies(b.size());
   ++state_.rebuilds;
 }
 
@@ -143,20 +177,21 @@ void Candidates::carry_history(int bodies, Pairs& pairs) {
   state_.travel.resize(bodies, 0);
   state_.travel_search = state_.travel;
 
-  // Both lists are sorted: old place of each new pair, or -1.
-  const int n = static_cast<int>(keys_.size());
+  // Both lists sorted: old place of each new pair, or -1.
+  const std::vector<int> by_key = sorted_by_key(pairs);
+  const int n = static_cast<int>(keys_.size()), before = pairs.size();
   std::vector<int> old(n, -1);
   for (int p = 0, o = 0; p < n; ++p) {
-    while (o < pairs.size() && pairs.key(o) < keys_[p]) ++o;
-    if (o < pairs.size() && pairs.key(o) == keys_[p]) old[p] = o;
+    while (o < before && pairs.key(by_key[o]) < keys_[p]) ++o;
+    if (o < before && pairs.key(by_key[o]) == keys_[p]) old[p] = by_key[o];
   }
   pairs.rearrange(old);
   for (int p = 0; p < n; ++p) pairs.set_key(p, keys_[p]);
   pairs.index_bodies(bodies);
 }
 
-void Candidates::drop_far_pairs(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
-                                Pairs& pairs) {
+std::vector<int> Candidates::near_pairs(const Bodies& b, const ShapeTable& shapes,
+                                        const StepContext& c, Pairs& pairs) const {
   std::vector<char> far(pairs.size(), 0);
 #pragma omp parallel for schedule(dynamic, 64) num_threads(c.threads) if (c.threads > 1)
   for (int p = 0; p < pairs.end(PairKind::polyhedra); ++p) {
@@ -176,8 +211,7 @@ void Candidates::drop_far_pairs(const Bodies& b, const ShapeTable& shapes, const
   std::vector<int> kept;
   for (int p = 0; p < pairs.size(); ++p)
     if (!far[p]) kept.push_back(p);
-  pairs.rearrange(kept);
-  pairs.index_bodies(b.size());
+  return kept;
 }
 
 }  // namespace trackbed::dem

@@ -57,7 +57,8 @@ class Candidates {
   void search_grains(const Bodies&, const StepContext&);
   void search_rigid(const Bodies&, const ShapeTable&, const StepContext&);
   void carry_history(int bodies, Pairs&);
-  void drop_far_pairs(const Bodies&, const ShapeTable&, const StepContext&, Pairs&);
+  /// Indices of pairs that may touch before the next search.
+  std::vector<int> near_pairs(const Bodies&, const ShapeTable&, const StepContext&, Pairs&) const;
 
   CandidateSettings settings_;
   State state_;

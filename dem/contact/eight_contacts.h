@@ -94,7 +94,7 @@ Eight respond(const Bodies& b, const PairMaterials& materials, const StepContext
   write(pairs.viscous.data(), e.pair, viscous);
   write(pairs.viscous_loss.data(), e.pair, r.viscous_loss);
   write(pairs.force.data(), e.pair, r.force);
-  write(pairs.normal_force.data(), e.pair, r.normal);
+  write(pairs.normal_force.data(), e.pair, r.law.force);
   write(pairs.friction_energy.data(), e.pair, r.slide.stored);
   write(pairs.friction_loss.data(), e.pair, r.slide.dissipated);
   write(pairs.energy.data(), e.pair, r.law.energy);

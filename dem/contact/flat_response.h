@@ -43,7 +43,8 @@ void respond_flat(const Bodies& b, const PairMaterial& material,
   const double force = damped<double>(size, c, moving), viscous = force - size;
   pairs.viscous_loss[p] = (pairs.viscous[p] + viscous) / 2 * way;
   pairs.viscous[p] = viscous;
-  pairs.normal_force[p] = pairs.force[p] = -force * direction;
+  pairs.normal_force[p] = force;
+  pairs.force[p] = -force * direction;
   pairs.friction_energy[p] = pairs.friction_loss[p] = 0;
   const double area = flat.shape.area.norm();
   if constexpr (friction) {

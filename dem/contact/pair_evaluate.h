@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "dem/contact/fetch.h"
 #include "dem/contact/friction.h"
 #include "dem/contact/normal_contact.h"
 #include "dem/contact/overlap_feature.h"
@@ -89,7 +90,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     };
     if (!(feature.faces_a && overlaps_again()) && !(pairs.touching[p] && overlaps())) {
       const double gap = separating_axis(va, pa, vb, pb, axis);
-      if (gap > 0) pairs.wake[p] = travel[i] + travel[j] + gap;
+      if (gap > 0) sleep(travel, gap, pairs, p);
       if (gap > 0 || !overlaps()) return release(pairs, p);
     }
     if (!normal_contact<Law>(moments, frame, work, material, overlaps, axis, contact))
@@ -125,7 +126,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   pairs.arm_b[p] = arm_b;
   pairs.force[p] = force;
   pairs.couple[p] = contact.couple;
-  pairs.normal_force[p] = normal;
+  pairs.normal_force[p] = size;
   pairs.energy[p] = contact.response.energy;
   pairs.area[p] = area;
   pairs.depth[p] = contact.shape.depth;
@@ -133,60 +134,51 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   pairs.tilt_stiffness[p] = tilt_stiffness(contact.shape, contact.response.stiffness);
 }
 
-/// The pairs that may touch, in order; of the others, what only a step's evaluation sets.
-inline void find_awake(const std::vector<double>& travel, Pairs& pairs) {
-  pairs.awake.clear();
-  for (int p = 0; p < pairs.end(PairKind::polyhedra); ++p) {
-    if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p])
-      pairs.friction_loss[p] = 0;
-    else
-      pairs.awake.push_back(p);
-  }
-}
-
 // The data of the next pairs are asked for before they are needed: else much of a contact's time
 // is spent waiting for memory, body by body. Farther ahead they would push each other out again.
-inline void fetch_lines(const void* p, int lines) {
-  for (int k = 0; k < lines; ++k) __builtin_prefetch(static_cast<const char*>(p) + 64 * k);
-}
-
+//
 // Bodies and views of a pair, then its planes and vertices: the second reads what the first asked
 // for.
-inline void fetch_bodies(const Bodies& b, const ShapeTable& shapes, const Pairs& pairs, int p) {
+[[gnu::always_inline]] inline void fetch_bodies(const Bodies& b, const ShapeTable& shapes,
+                                                const Pairs& pairs, int p) {
   const int j = pairs.b[p];
-  for (const Vec3* at : {&b.x[j], &b.v[j], &b.turn[j]})  // may lie across two lines
-    fetch_lines(at->data(), 1), fetch_lines(at->data() + 2, 1);
+  fetch(b.x[j]), fetch(b.v[j]), fetch(b.turn[j]);
   fetch_lines(&b.R[j], 2);
   fetch_lines(&shapes.part(b.shape[j], pairs.part_b[p]), 1);
   fetch_lines(&shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]), 1);
 }
 
-inline void fetch_shapes(const Bodies& b, const ShapeTable& shapes, const Pairs& pairs, int p) {
+[[gnu::always_inline]] inline void fetch_shapes(const Bodies& b, const ShapeTable& shapes,
+                                                const Pairs& pairs, int p) {
   const SimpleFeature f = SimpleFeature::of(pairs.feature[p]);
-  const auto fetch = [](const ConvexView& v, bool vertex, int i) {
+  const auto fetch_view =
+      [](const ConvexView& v, bool vertex, int i) __attribute__((always_inline)) {
     fetch_lines(v.nx, (v.faces + 7) / 8 * 4);  // all four of the planes
     if (vertex) fetch_lines(Star(v, i).at, 2);
   };
-  fetch(shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]).core,
-        f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_a, f.a);
-  fetch(shapes.part(b.shape[pairs.b[p]], pairs.part_b[p]).core,
-        f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_b, f.b);
+  fetch_view(shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]).core,
+             f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_a, f.a);
+  fetch_view(shapes.part(b.shape[pairs.b[p]], pairs.part_b[p]).core,
+             f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_b, f.b);
 }
 
 template <class Law, bool friction>
 void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                     const StepContext& c, const std::vector<double>& travel, Pairs& pairs) {
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
-  find_awake(travel, pairs);
-  const int awake = static_cast<int>(pairs.awake.size());
   constexpr int share = 32;  // of a thread at a time; the next pair beyond it may be another's
-#pragma omp parallel for schedule(dynamic, share) num_threads(c.threads) if (c.threads > 1)
-  for (int k = 0; k < awake; ++k) {
-    const int end = std::min(awake, (k / share + 1) * share);
-    if (k + 2 < end) fetch_bodies(b, shapes, pairs, pairs.awake[k + 2]);
-    if (k + 1 < end) fetch_shapes(b, shapes, pairs, pairs.awake[k + 1]);
-    evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
-                                 pairs.workspaces[omp_get_thread_num()], pairs, pairs.awake[k]);
+  const int all = pairs.end(PairKind::polyhedra), shares = (all + share - 1) / share;
+#pragma omp parallel for schedule(dynamic) num_threads(c.threads) if (c.threads > 1 && shares > 1)
+  for (int s = 0; s < shares; ++s) {
+    int awake[share], count = 0;
+    for (int p = s * share; p < std::min(all, (s + 1) * share); ++p)
+      if (!asleep(travel, pairs, p)) awake[count++] = p;
+    for (int k = 0; k < count; ++k) {
+      if (k + 2 < count) fetch_bodies(b, shapes, pairs, awake[k + 2]);
+      if (k + 1 < count) fetch_shapes(b, shapes, pairs, awake[k + 1]);
+      evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
+                                   pairs.workspaces[omp_get_thread_num()], pairs, awake[k]);
+    }
   }
 }
 

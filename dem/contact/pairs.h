@@ -1,6 +1,8 @@
 // Pairs of convex parts of bodies that touch or may soon touch: history that lives on from step to
 // step, and the results of the last evaluation. Structure of arrays, sorted by kind, so that each
-// kind has a plain loop of its own, then by bodies and parts (PairKey).
+// kind has a plain loop of its own; within a kind first those whose bodies touched at the last
+// search, in a row, which are what a step works on, then the others; then by bodies and parts
+// (PairKey).
 #pragma once
 #include <array>
 #include <cmath>
@@ -50,10 +52,10 @@ struct Pairs {
 
   // Results of the last evaluation; zero for a pair that does not touch.
   std::vector<std::uint8_t> touching;
-  std::vector<Vec3> force;         ///< on a, normal + friction [N]; on b its negative
-  std::vector<Vec3> couple;        ///< moment on a about the contact point [N m]; on b its negative
-  std::vector<Vec3> normal_force;  ///< `force` without friction [N]
-  std::vector<double> energy;      ///< stored in the normal contact [J]
+  std::vector<Vec3> force;   ///< on a, normal + friction [N]; on b its negative
+  std::vector<Vec3> couple;  ///< moment on a about the contact point [N m]; on b its negative
+  std::vector<double> normal_force;     ///< size of `force` without friction, along -axis [N]
+  std::vector<double> energy;           ///< stored in the normal contact [J]
   std::vector<double> friction_energy;  ///< stored in the tangential spring [J]
   std::vector<double> friction_loss;    ///< dissipated in this step [J]
   std::vector<double> viscous;          ///< damping force, elastic + viscous = normal [N]; history
@@ -74,7 +76,6 @@ struct Pairs {
   std::vector<int> first, incident;
 
   std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
-  std::vector<int> awake;                    ///< scratch: the pairs that a step looks at
 
   std::array<int, kPairKinds + 1> kind_first{};  ///< range of each kind (index_bodies)
 

@@ -27,7 +27,7 @@ FrictionResult torsion(double share, const Bodies& b, const PairMaterials& mater
   // One component: a spring in a plane of its own.
   Vec3 moment(pairs.torsion[p], 0, 0);
   const FrictionResult r =
-      advance_friction(share * m.friction * radius, k, Vec3(0, 0, 1), pairs.normal_force[p].norm(),
+      advance_friction(share * m.friction * radius, k, Vec3(0, 0, 1), pairs.normal_force[p],
                        {Vec3(n.dot(turn), 0, 0), Vec3::Zero()}, moment, pairs.torsion_stiffness[p]);
   pairs.torsion[p] = moment.x();
   pairs.couple[p] += moment.x() * n;
@@ -39,7 +39,7 @@ FrictionResult rolling(double coefficient, const Bodies& b, const Vec3& n, const
   const double arm = coefficient * rolling_radius(b, pairs, p);
   const double k = 2.25 * pairs.stiffness[p] * arm * arm;
   const FrictionResult r =
-      advance_friction(arm, k, n, pairs.normal_force[p].norm(), {turn, pair_turn}, pairs.rolling[p],
+      advance_friction(arm, k, n, pairs.normal_force[p], {turn, pair_turn}, pairs.rolling[p],
                        pairs.rolling_stiffness[p]);
   pairs.couple[p] += pairs.rolling[p];
   return r;

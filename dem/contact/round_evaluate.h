@@ -81,7 +81,7 @@ void find_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials
   const DeepestBalls balls = Geometry::find(b, part_a, part_b, apart, pairs, p);
   const Vec3 arm_a = balls.x + (balls.ra - balls.overlap / 2) * balls.n;
   if (!(balls.overlap > 0)) {
-    pairs.wake[p] = travel[i] + travel[j] - balls.overlap;
+    sleep(travel, -balls.overlap, pairs, p);
     release_round(b, c, pairs, p);
     pairs.arm_a[p] = arm_a;
     return;
@@ -134,10 +134,7 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   for (int s = 0; s < stretches; ++s) {
     Found found;
     for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {
-      if (travel[pairs.a[p]] + travel[pairs.b[p]] < pairs.wake[p]) {
-        pairs.friction_loss[p] = pairs.viscous_loss[p] = 0;
-        continue;
-      }
+      if (asleep(travel, pairs, p)) continue;
       find_contact<Geometry, Law, friction>(b, shapes, materials, c, travel, pairs, p, found);
       if (found.pair.count == 8)
         respond_to<Geometry, Law, friction>(b, shapes, materials, c, pairs, found);

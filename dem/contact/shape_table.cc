@@ -80,6 +80,7 @@ int ShapeTable::add(const GrainShape& shape) {
   }
   for (std::size_t k = flat_parts_.size(); k < parts_.size(); ++k) {
     PartView part = parts_[k];
+    balls_.push_back({part.centre, part.radius});
     const double most = part.core.radius;
     if (part.kind == Core::dilated) part.crown = kFlatCrown / most, part.mean_square = most * most;
     flat_parts_.push_back(part);

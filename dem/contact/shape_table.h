@@ -64,6 +64,12 @@ struct alignas(64) PartView {
   bool centred = false;  ///< a point at the body's origin
 };
 
+/// A part whose core is a point, two to a line of memory: all that pairs of balls read of it.
+struct alignas(32) Ball {
+  Vec3 centre;  ///< body frame [m]
+  double radius;
+};
+
 class ShapeTable {
  public:
   /// Returns the shape's index. Throws InputError when a face has no area, an edge belongs to one
@@ -72,6 +78,7 @@ class ShapeTable {
   /// Parts of a shape: one, the body itself, for a plain polyhedron.
   int parts(int shape) const { return part_first_[shape + 1] - part_first_[shape]; }
   const PartView& part(int shape, int k) const { return parts_[part_first_[shape] + k]; }
+  const Ball& ball(int shape, int k) const { return balls_[part_first_[shape] + k]; }
   /// The part for laws that let flat faces answer by their area (flat_contact.h): of a dilated
   /// polyhedron's crown only so much is left that edges roll smoothly through parallel, 0.001 over
   /// the core's greatest distance from the centroid, and r is the radius at the core's farthest
@@ -93,6 +100,7 @@ class ShapeTable {
   LinePool reals_;  // of each shape: nx, ny, nz, offset; stars; x, y, z; corners
   std::vector<std::shared_ptr<const Arrays>> arrays_;
   std::vector<PartView> parts_, flat_parts_;
+  std::vector<Ball> balls_;  // of each part; means nothing of one that is none
   std::vector<int> part_first_{0};
   std::vector<ConvexView> views_;
   std::vector<GrainShape> shapes_;

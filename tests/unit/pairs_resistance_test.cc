@@ -24,7 +24,7 @@ struct OnePair {
     p.index_bodies(2);
     p.touching[0] = 1;
     p.axis[0] = Vec3(0, 0, 1);
-    p.normal_force[0] = Vec3(0, 0, -force);
+    p.normal_force[0] = force;
     p.area[0] = area, p.stiffness[0] = kn;
     p.arm_a[0] = Vec3(0, 0, ra), p.arm_b[0] = Vec3(0, 0, -rb);
   }

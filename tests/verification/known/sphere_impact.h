@@ -47,7 +47,7 @@ inline Impact collide(Scene& s) {
     touched = true;
     was = depth;
     r.depth = std::max(r.depth, depth);
-    r.force = std::max(r.force, s.pairs.normal_force[0].norm());
+    r.force = std::max(r.force, s.pairs.normal_force[0]);
   }
   r.time = end - start;
   r.v = s.bodies.v[0], r.omega = s.bodies.omega[0];

@@ -1,0 +1,19 @@
+// Memory asked for before it is needed. GCC takes a function that does nothing else for one without
+// effect and drops its calls, unless it was put into its caller before: always_inline, here and in
+// whatever is made of these.
+#pragma once
+
+namespace trackbed::dem {
+
+[[gnu::always_inline]] inline void fetch_lines(const void* p, int lines) {
+  for (int k = 0; k < lines; ++k) __builtin_prefetch(static_cast<const char*>(p) + 64 * k);
+}
+
+/// An object of less than a line, which may lie across two.
+template <class T>
+[[gnu::always_inline]] inline void fetch(const T& object) {
+  const char* p = reinterpret_cast<const char*>(&object);
+  __builtin_prefetch(p), __builtin_prefetch(p + sizeof(T) - 1);
+}
+
+}  // namespace trackbed::dem
