@@ -1,11 +1,14 @@
 #include "dem/contact/overlap.h"
 
 #include "dem/contact/cone_sums.h"
+#include "dem/contact/flat_overlap.h"
 #include "dem/contact/overlap_clip.h"
 #include "dem/contact/overlap_simple.h"
 
 namespace trackbed::dem {
 namespace {
+
+constexpr double kFlatsClose = 1e-12;  // of the areas' size; strips of walls are small ones
 
 // Moments of a tetrahedron about the mean of its corners, where the first moments vanish:
 // V/20 sum_i y_i y_i^T.
@@ -42,7 +45,7 @@ struct Mark {
 
 // Whether the vector areas of what was appended add up to nothing, within 1e-8 of their size: the
 // volume is that sure.
-bool closes(const Mark& mark, const OverlapWorkspace& work) {
+bool closes(const Mark& mark, const OverlapWorkspace& work, double tolerance = 1e-8) {
   Vec3 sum = Vec3::Zero();
   double squares = 0;
   const auto add = [&](const std::vector<OverlapPiece>& pieces, std::size_t from) {
@@ -50,7 +53,7 @@ bool closes(const Mark& mark, const OverlapWorkspace& work) {
       sum += pieces[i].area, squares += pieces[i].area.squaredNorm();
   };
   add(work.a_pieces, mark.a), add(work.b_pieces, mark.b);
-  return sum.squaredNorm() <= 1e-16 * squares;
+  return sum.squaredNorm() <= tolerance * tolerance * squares;
 }
 
 PlacedBody placed(const ConvexView& v, const Pose& p, const ContactFrame& frame) {
@@ -107,6 +110,20 @@ bool overlap(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pos
     clip_closed(body_a, body_b, work);
   }
   return sum_moments(small == Clipped::tetrahedron, mark, work, moments);
+}
+
+FlatOverlap overlap_of_faces(const ConvexView& a, const Pose& pa, const FlatFace& on_a,
+                             const ConvexView& b, const Pose& pb, const FlatFace& on_b,
+                             const ContactFrame& frame, double thickness, OverlapWorkspace& work,
+                             OverlapMoments& moments) {
+  const Mark mark(work);
+  if (!clip_flats(placed(a, pa, frame), on_a, placed(b, pb, frame), on_b, thickness, work) ||
+      !closes(mark, work, kFlatsClose)) {
+    mark.back(work);
+    return FlatOverlap::unsure;
+  }
+  if (work.points.size() == mark.points) return FlatOverlap::nothing;
+  return sum_moments(false, mark, work, moments) ? FlatOverlap::found : FlatOverlap::nothing;
 }
 
 bool overlap_again(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,

@@ -1,8 +1,6 @@
 // Clipping of bodies of ordinary size, polygons in registers; see overlap.h for the method.
-#include <array>
-
-#include "dem/contact/eight.h"
 #include "dem/contact/overlap_simple.h"
+#include "dem/contact/polygon_clip.h"
 
 namespace trackbed::dem {
 namespace {
@@ -11,10 +9,6 @@ constexpr std::uint64_t first_bits(int n) { return n >= 64 ? ~0ull : (1ull << n)
 
 bool suitable(const ConvexView& v) {
   return v.padded <= kMost && v.padded % 8 == 0 && v.padded >= v.vertices && v.faces <= kMost;
-}
-
-Eight row(const Mat3& M, int r, Eight x, Eight y, Eight z, Eight t) {
-  return fma(Eight(M(r, 0)), x, fma(Eight(M(r, 1)), y, fma(Eight(M(r, 2)), z, t)));
 }
 
 void vertices_to_frame(const PlacedBody& body, Side& s) {
@@ -124,54 +118,6 @@ void cull_faces(Side& s, const Side& other, double slack) {
   }
 }
 
-struct Polygon {
-  Eight x, y, z;
-  int n;
-};
-
-// Where the corners of a clipped polygon come from: corner k lies between corners from[k] and to[k]
-// of the old one, which has n corners of which m, from s on, are kept.
-struct ClipTable {
-  std::uint64_t from[9 * 64] = {}, to[9 * 64] = {};
-  constexpr ClipTable() {
-    for (int n = 3; n <= 8; ++n)
-      for (int s = 0; s < n; ++s)
-        for (int m = 1; m < n; ++m)
-          for (int k = 0; k < 8; ++k) {
-            const int kept = k < m ? (s + k) % n : s;
-            const std::uint64_t p = k == m ? (s + m - 1) % n : kept;
-            const std::uint64_t q = k == m ? (s + m) % n : k == m + 1 ? (s + n - 1) % n : kept;
-            from[n * 64 + s * 8 + m] |= p << (8 * k);
-            to[n * 64 + s * 8 + m] |= q << (8 * k);
-          }
-  }
-};
-constexpr ClipTable kTable;
-
-// Keeps the part of the polygon at the corners of which the bits of `in` are set; d signed distance
-// to the cutting plane. False when that is not one chain or has too many corners.
-[[gnu::always_inline]] inline bool clip(Polygon& p, Eight d, unsigned in) {
-  const unsigned all = (1u << p.n) - 1;
-  in &= all;
-  if (in == all) return true;
-  if (in == 0) {
-    p.n = 0;
-    return true;
-  }
-  const unsigned before = (in << 1 | in >> (p.n - 1)) & all, entering = in & ~before;
-  const int s = __builtin_ctz(entering), m = __builtin_popcount(in);
-  if ((entering & (entering - 1)) || m > 6) return false;
-  const int entry = p.n * 64 + s * 8 + m;
-  const Places from(kTable.from[entry]), to(kTable.to[entry]);
-  const Eight df = pick(d, from), t = divide_where(3u << m, df, df - pick(d, to));
-  const Eight x = pick(p.x, from), y = pick(p.y, from), z = pick(p.z, from);
-  p.x = fma(t, pick(p.x, to) - x, x);
-  p.y = fma(t, pick(p.y, to) - y, y);
-  p.z = fma(t, pick(p.z, to) - z, z);
-  p.n = m + 2;
-  return true;
-}
-
 [[gnu::always_inline]] inline bool face_polygon(const PlacedBody& body, const Side& s, int f,
                                                 Polygon& p) {
   const ConvexView& v = body.view;
@@ -179,11 +125,7 @@ constexpr ClipTable kTable;
   p.n = v.loop_begin[f + 1] - begin;
   if (p.n > 8) return false;
   if (v.corners) {
-    const double* c = v.corners + 24 * f;
-    const Eight x = Eight::load(c), y = Eight::load(c + 8), z = Eight::load(c + 16);
-    p.x = row(body.M, 0, x, y, z, Eight(body.t.x()));
-    p.y = row(body.M, 1, x, y, z, Eight(body.t.y()));
-    p.z = row(body.M, 2, x, y, z, Eight(body.t.z()));
+    p.of(body.M, body.t, v.corners + 24 * f);
     return true;
   }
   double x[8], y[8], z[8];

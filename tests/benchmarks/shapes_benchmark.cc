@@ -1,5 +1,6 @@
 // Cost of one step of a bed by shape of its grains, everything included: spheres, clumps of 8,
-// dilated polyhedra, and half of them polyhedra. Loose grains fall into a box and settle; then per
+// dilated polyhedra without and with flat faces that answer by their area, and half of them
+// polyhedra. Loose grains fall into a box and settle; then per
 // touching pair of parts, per grain and step, on one thread and on two, and per near pair that does
 // not touch, such pairs by themselves.
 //   shapes_benchmark [grains (1000)] [steps timed (1000)] [folder or ""] [only this shape or ""]
@@ -64,10 +65,11 @@ Vec3 box_of(const std::vector<GrainShape>& shapes, int grains) {
   return cell_of(shapes) * row_of(grains) * Vec3(1, 1, 2);
 }
 
-Scene settled(const std::vector<GrainShape>& shapes, int grains) {
+Scene settled(const std::vector<GrainShape>& shapes, int grains, const std::string& law) {
   Scene s(2e7, .5);
+  s.round = make_round_forces(law, true);
   PairMaterial m = s.materials(0, 0);
-  m.damping = damping_for_restitution("hertz_mindlin", .3);
+  m.damping = damping_for_restitution(law, .3);
   s.materials.set(0, 0, m);
   std::mt19937 random(11);
   const auto u = [&] { return random() / 2147483648. - 1; };
@@ -173,15 +175,20 @@ int main(int argc, char** argv) {
     dilated.push_back(rounded(s));
     half.push_back(s), half.push_back(clump_of_eight());
   }
-  const std::pair<const char*, std::vector<GrainShape>> beds[] = {
-      {"spheres", {sphere_shape(.5 * kSize)}},
-      {"clumps of 8", {clump_of_eight()}},
-      {"dilated polyhedra", dilated},
-      {"polyhedra", plain},
-      {"polyhedra and clumps of 8", half}};
-  for (const auto& [name, shapes] : beds) {
+  struct Bed {
+    const char* name;
+    std::vector<GrainShape> shapes;
+    const char* law;
+  };
+  const Bed beds[] = {{"spheres", {sphere_shape(.5 * kSize)}, "hertz_mindlin"},
+                      {"clumps of 8", {clump_of_eight()}, "hertz_mindlin"},
+                      {"dilated polyhedra", dilated, "hertz_mindlin"},
+                      {"dilated polyhedra, flat faces", dilated, "hertz_flat"},
+                      {"polyhedra", plain, "hertz_mindlin"},
+                      {"polyhedra and clumps of 8", half, "hertz_mindlin"}};
+  for (const auto& [name, shapes, law] : beds) {
     if (!only.empty() && only != name) continue;
-    const Scene s = settled(shapes, grains);
+    const Scene s = settled(shapes, grains, law);
     std::printf("%s: %d grains, %d touching of %d near pairs, kinetic energy %.1e J\n", name,
                 grains, count_contacts(s.pairs), s.pairs.size(), s.now().kinetic);
     if (!folder.empty())
