@@ -9,11 +9,6 @@ constexpr int kFan = FacePrism::kCorners - 2;  // triangles of a fan about the f
 
 }  // namespace
 
-int prisms_of(const ConvexView& v, int face) {
-  const int triangles = v.loop_begin[face + 1] - v.loop_begin[face] - 2;
-  return (triangles + kFan - 1) / kFan;
-}
-
 void make_face_prism(const ConvexView& v, int face, int part, double height, FacePrism& out) {
   const int first = v.loop_begin[face], all = v.loop_begin[face + 1] - first;
   const int skipped = part * kFan, count = std::min(all - skipped, FacePrism::kCorners);

@@ -18,8 +18,12 @@ struct FacePrism {
   FacePrism& operator=(const FacePrism&) = delete;
 };
 
-/// Into how many prisms that of a face is cut; neighbours share a wall.
-int prisms_of(const ConvexView&, int face);
+/// Into how many prisms of so many corners that of a face is cut, fans about its first corner;
+/// neighbours share a wall.
+inline int prisms_of(const ConvexView& v, int face, int corners = FacePrism::kCorners) {
+  const int triangles = v.loop_begin[face + 1] - v.loop_begin[face] - 2, fan = corners - 2;
+  return triangles <= fan ? 1 : (triangles + fan - 1) / fan;
+}
 
 /// The k-th of them.
 void make_face_prism(const ConvexView&, int face, int k, double height, FacePrism&);

@@ -11,64 +11,67 @@
 namespace trackbed::dem {
 namespace {
 
-// A face of a part with m.n (body axes) above `least`, from `from` on; `faces` if there is none.
-int next_face(const ConvexView& v, const Vec3& n, double least, int from) {
-  int f = from;
-  while (f < v.faces && !(v.nx[f] * n.x() + v.ny[f] * n.y() + v.nz[f] * n.z() > least)) ++f;
-  return f;
-}
-
-bool any_face(const ConvexView& v, const Vec3& n, double least) {
-  if (!v.planes_padded) return next_face(v, n, least, 0) < v.faces;
-  const Eight nx(n.x()), ny(n.y()), nz(n.z());
-  Eight best(-1.0);
-  for (int f = 0; f < v.faces; f += 8)
-    best = max(best, fma(nx, Eight::load(v.nx + f),
-                         fma(ny, Eight::load(v.ny + f), nz * Eight::load(v.nz + f))));
-  return largest(best) > least;
-}
-
-// What may overlap of one body.
+// What may overlap of one body: the flat parts at faces with m.n above `least`, n the direction of
+// the other body; of a plain polyhedron all of it, told by the face most across n.
 struct Side {
+  static constexpr int kMost = 8;
   const PartView& part;
   const Mat3& R;
-  Vec3 n;        // outward, body axes
-  double least;  // cosine that a face must exceed
+  double least;
+  int count = 0;  // more than kMost: not all are listed
+  int faces[kMost];
 
   Side(const PartView& p, const Mat3& turn, const Vec3& direction, double overlap)
-      : part(p),
-        R(turn),
-        n(R.transpose() * direction),
-        least(p.radius > 0 ? 1 - overlap / p.radius : -2) {}
-  bool any() const { return part.radius == 0 || any_face(part.core, n, least); }
-  FlatFace first_face() const {
+      : part(p), R(turn) {
     const ConvexView& v = part.core;
-    if (part.radius > 0) return {next_face(v, n, least, 0), part.radius};
-    int best = 0;  // of a plain polyhedron the one most across n
-    const auto across = [&](int f) { return v.nx[f] * n.x() + v.ny[f] * n.y() + v.nz[f] * n.z(); };
-    for (int f = 1; f < v.faces; ++f)
-      if (across(f) > across(best)) best = f;
-    return {best, 0};
+    const Vec3 n = R.transpose() * direction;
+    const Eight nx(n.x()), ny(n.y()), nz(n.z());
+    const auto across = [&](int f) {
+      return fma(nx, Eight::load(v.nx + f),
+                 fma(ny, Eight::load(v.ny + f), nz * Eight::load(v.nz + f)));
+    };
+    least = 1 - overlap / part.radius;
+    if (part.radius == 0) {
+      Eight most(-1.0);
+      for (int f = 0; f < v.faces; f += 8) most = max(most, across(f));
+      least = std::nextafter(largest(most), -1);
+    }
+    for (int f = 0; f < v.faces; f += 8) {
+      unsigned bits = less(Eight(least), across(f));
+      if (f + 8 > v.faces) bits &= (1u << (v.faces - f)) - 1;  // padding
+      for (; bits; bits &= bits - 1, ++count)
+        if (count < kMost) faces[count] = f + __builtin_ctz(bits);
+    }
+    if (part.radius == 0) count = 1;
   }
-  // The next one, `faces` if there is none.
-  FlatFace after(const FlatFace& on) const {
-    return {part.radius > 0 ? next_face(part.core, n, least, on.face + 1) : part.core.faces,
-            part.radius};
-  }
-  Vec3 normal(const FlatFace& on) const {
+  Vec3 normal(int k) const {
     const ConvexView& v = part.core;
-    return R * Vec3(v.nx[on.face], v.ny[on.face], v.nz[on.face]);
+    return R * Vec3(v.nx[faces[k]], v.ny[faces[k]], v.nz[faces[k]]);
   }
+  // visit(flat face) until it is false.
+  template <class Visit>
+  bool all(Visit&& visit) const {
+    for (int k = 0; k < count; ++k) {
+      const int prisms = part.radius == 0 ? 1 : prisms_of(part.core, faces[k], kFlatCorners);
+      for (int j = 0; j < prisms; ++j)
+        if (!visit(FlatFace{faces[k], part.radius, j})) return false;
+    }
+    return true;
+  }
+  // visit(prism), whatever their number.
   template <class Visit>
   void each_prism(Visit&& visit) const {
-    if (part.radius == 0) return visit(part.core);
+    const ConvexView& v = part.core;
+    if (part.radius == 0) return visit(v);
     FacePrism prism;
-    for (int f = next_face(part.core, n, least, 0); f < part.core.faces;
-         f = next_face(part.core, n, least, f + 1))
-      for (int k = 0; k < prisms_of(part.core, f); ++k) {
-        make_face_prism(part.core, f, k, part.radius, prism);
+    for (int f = 0, k = 0; f < v.faces; ++f) {
+      if (count <= kMost && (k >= count || faces[k] != f)) continue;
+      ++k;
+      for (int j = 0; j < prisms_of(v, f); ++j) {
+        make_face_prism(v, f, j, part.radius, prism);
         visit(prism.view);
       }
+    }
   }
 };
 
@@ -76,12 +79,12 @@ struct Side {
 bool thin_overlap(const Side& a, const Pose& pa, const Side& b, const Pose& pb,
                   const ContactFrame& frame, double thickness, OverlapWorkspace& work,
                   OverlapMoments& moments) {
-  for (FlatFace f = a.first_face(); f.face < a.part.core.faces; f = a.after(f))
-    for (FlatFace g = b.first_face(); g.face < b.part.core.faces; g = b.after(g))
-      if (overlap_of_faces(a.part.core, pa, f, b.part.core, pb, g, frame, thickness, work,
-                           moments) == FlatOverlap::unsure)
-        return false;
-  return true;
+  return a.all([&](const FlatFace& f) {
+    return b.all([&](const FlatFace& g) {
+      return overlap_of_faces(a.part.core, pa, f, b.part.core, pb, g, frame, thickness, work,
+                              moments) != FlatOverlap::unsure;
+    });
+  });
 }
 
 void any_overlap(const Side& a, const Pose& pa, const Side& b, const Pose& pb, const Vec3& n,
@@ -106,17 +109,19 @@ bool flat_contact(const PartView& a, const Mat3& Ra, const PartView& b, const Po
                          a.crown / 4 * a.core.radius * a.core.radius +
                          b.crown / 4 * b.core.radius * b.core.radius;
   const Side of_a(a, Ra, balls.n, overlap), of_b(b, pose.R, -balls.n, overlap);
-  if (!of_a.any() || !of_b.any()) return false;
+  if (of_a.count == 0 || of_b.count == 0) return false;
   const Pose own{Ra, Vec3::Zero()};
   OverlapMoments moments;
   work.clear();
-  const bool of_a_first = a.radius > 0;  // along a flat part's normal depths keep their digits
-  const Vec3 normal = of_a_first ? of_a.normal(of_a.first_face()) : -of_b.normal(of_b.first_face());
+  // Along a flat part's normal depths keep their digits.
+  const Vec3 normal = a.radius > 0 ? of_a.normal(0) : Vec3(-of_b.normal(0));
   ContactFrame frame{balls.x + (balls.ra - balls.overlap / 2) * balls.n, axes_along(normal)};
-  const double height =
-      std::min(a.radius > 0 ? a.radius : HUGE_VAL, b.radius > 0 ? b.radius : HUGE_VAL);
-  if (!(overlap < height / 4) ||
-      !thin_overlap(of_a, own, of_b, pose, frame, 1.01 * overlap, work, moments)) {
+  // No deeper in any of the prisms either, so that those higher than this end outside.
+  const double thickness = 1.01 * overlap;
+  const bool thin = (a.radius == 0 || thickness < a.radius) &&
+                    (b.radius == 0 || thickness < b.radius) &&
+                    std::max(of_a.count, of_b.count) <= Side::kMost;
+  if (!thin || !thin_overlap(of_a, own, of_b, pose, frame, thickness, work, moments)) {
     work.clear();
     moments = OverlapMoments();
     any_overlap(of_a, own, of_b, pose, balls.n, frame, work, moments);

@@ -1,5 +1,7 @@
 #include "dem/contact/flat_overlap.h"
 
+#include <algorithm>
+
 #include "dem/contact/polygon_clip.h"
 
 namespace trackbed::dem {
@@ -29,16 +31,37 @@ Eight next(const double* x, int corners) {
   return Eight::load(wrapped + 1);
 }
 
+// Corners of a prism's base as in ConvexView::corners; returns how many.
+int gather(const ConvexView& v, const FlatFace& on, double* corners) {
+  const int first = v.loop_begin[on.face], all = v.loop_begin[on.face + 1] - first;
+  const int skipped = on.prism * (kFlatCorners - 2), count = std::min(all - skipped, kFlatCorners);
+  for (int k = 0; k < 8; ++k) {
+    const int c = std::min(k, count - 1), i = v.loop[first + (c == 0 ? 0 : skipped + c)];
+    corners[k] = v.x[i], corners[8 + k] = v.y[i], corners[16 + k] = v.z[i];
+  }
+  return count;
+}
+
 void make_flat(const PlacedBody& body, const FlatFace& on, double thickness, bool walls,
                Flat& out) {
   const ConvexView& v = body.view;
   const int f = on.face;
   const Vec3 m = body.M * Vec3(v.nx[f], v.ny[f], v.nz[f]);
   const Vec3 up = body.t + on.height * m;
-  out.corners = out.top.n = out.low.n = v.loop_begin[f + 1] - v.loop_begin[f];
+  const double* corners = v.corners;
+  alignas(64) double gathered[24];
+  const int all = v.loop_begin[f + 1] - v.loop_begin[f];
+  if (corners && all <= kFlatCorners) {
+    corners += 24 * f;
+    out.corners = all;
+  } else {
+    out.corners = gather(v, on, gathered);
+    corners = gathered;
+  }
+  out.top.n = out.low.n = out.corners;
   out.all = (1u << out.corners) - 1;
   out.walls = walls ? out.corners : 0;
-  out.top.of(body.M, up, v.corners + 24 * f);
+  out.top.of(body.M, up, corners);
   const Eight mx(m.x()), my(m.y()), mz(m.z());
   const Polygon& top = out.top;
   out.low.x = top.x - Eight(thickness) * mx;
@@ -182,7 +205,8 @@ bool others_are_clear(const PlacedBody& plain, int face, const Flat& flat) {
 
 bool clip_flats(const PlacedBody& a, const FlatFace& on_a, const PlacedBody& b,
                 const FlatFace& on_b, double thickness, OverlapWorkspace& work) {
-  if (!a.view.corners || !b.view.corners || a.view.faces > 64 || b.view.faces > 64) return false;
+  for (const PlacedBody* body : {&a, &b})
+    if (body->view.faces > 64 || !body->view.planes_padded) return false;
   Flat flat_a, flat_b;
   make_flat(a, on_a, thickness, on_a.height > 0, flat_a);
   make_flat(b, on_b, thickness, on_b.height > 0, flat_b);

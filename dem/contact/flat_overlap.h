@@ -11,12 +11,14 @@
 
 namespace trackbed::dem {
 
-/// A face and the flat part of the body on it, a prism of that height (face_prism.h); of a plain
-/// polyhedron, height 0, all that lies below.
+/// A face and the flat part of the body on it, the k-th of its prisms of that height (prisms_of()
+/// with kFlatCorners); of a plain polyhedron, height 0, all that lies below.
 struct FlatFace {
   int face;
   double height;
+  int prism = 0;
 };
+inline constexpr int kFlatCorners = 7;
 
 /// As overlap() of the flat parts at two faces, for what is thinner than `thickness` [m] along both
 /// faces' normals and far thinner than the prisms are high. `unsure` where only overlap() can tell
