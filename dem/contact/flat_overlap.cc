@@ -10,7 +10,8 @@ namespace {
 constexpr double kParallel = 1 - 1e-6;  // cosine from which walls may coincide
 
 // A flat part in frame coordinates. Planes: of its walls, wall k from corner k to k + 1, and last
-// of its outer face. The half space below a face has no walls.
+// of its outer face; normals of walls are as long as their edges. The half space below a face
+// has no walls.
 struct Flat {
   Polygon top, low;                                       // outer face; as far below as may matter
   alignas(64) double x[16], y[16], z[16];                 // corners of both, from 0 and from 8 on
@@ -72,10 +73,8 @@ void make_flat(const PlacedBody& body, const FlatFace& on, double thickness, boo
     const Eight ex = next(out.x, out.corners) - top.x, ey = next(out.y, out.corners) - top.y,
                 ez = next(out.z, out.corners) - top.z;
     const Eight wx = ey * mz - ez * my, wy = ez * mx - ex * mz, wz = ex * my - ey * mx;
-    const Eight scale = Eight(1.0) / sqrt(fma(wx, wx, fma(wy, wy, wz * wz)));
-    const Eight nx = scale * wx, ny = scale * wy, nz = scale * wz;
-    nx.store(out.nx), ny.store(out.ny), nz.store(out.nz);
-    fma(nx, top.x, fma(ny, top.y, nz * top.z)).store(out.offset);
+    wx.store(out.nx), wy.store(out.ny), wz.store(out.nz);
+    fma(wx, top.x, fma(wy, top.y, wz * top.z)).store(out.offset);
   }
   const int k = out.walls;
   out.nx[k] = m.x(), out.ny[k] = m.y(), out.nz[k] = m.z();
@@ -119,12 +118,14 @@ struct Cuts {
 
 bool walls_may_coincide(const Flat& a, unsigned walls_a, const Flat& b, unsigned walls_b) {
   if (!walls_a || !walls_b) return false;
-  const Eight nx = Eight::load(b.nx), ny = Eight::load(b.ny), nz = Eight::load(b.nz);
+  const Eight nx = Eight::load(b.nx), ny = Eight::load(b.ny), nz = Eight::load(b.nz),
+              least = Eight(kParallel * kParallel) * fma(nx, nx, fma(ny, ny, nz * nz));
   unsigned parallel = 0;
   for (; walls_a; walls_a &= walls_a - 1) {
     const int k = __builtin_ctz(walls_a);
-    parallel |= less(Eight(kParallel),
-                     fma(Eight(a.nx[k]), nx, fma(Eight(a.ny[k]), ny, Eight(a.nz[k]) * nz)));
+    const double x = a.nx[k], y = a.ny[k], z = a.nz[k], length2 = x * x + y * y + z * z;
+    const Eight dot = fma(Eight(x), nx, fma(Eight(y), ny, Eight(z) * nz));
+    parallel |= less(Eight(length2) * least, dot * dot) & less(Eight(0.0), dot);
   }
   return parallel & walls_b;
 }
