@@ -88,8 +88,8 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
   const int begin = pairs.begin(kind), end = pairs.end(kind);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
   const bool centred = kind == PairKind::balls;
-#pragma omp parallel for schedule(dynamic) \
-    num_threads(c.threads) if (c.threads > 1 && stretches > 1)
+  const int threads = c.threads_for(end - begin);  // a pair takes no longer than a body
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
   for (int s = 0; s < stretches; ++s) {
     Eightfold awake;
     const auto evaluate = [&] {

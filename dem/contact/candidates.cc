@@ -11,8 +11,6 @@
 namespace trackbed::dem {
 namespace {
 
-constexpr int kFewBodies = 2000;  // as quickly done as a thread is woken
-
 double radius(const Bodies& b, const ShapeTable& shapes, int i) {
   return shapes.view(b.shape[i]).radius;
 }
@@ -89,9 +87,9 @@ double Candidates::add_travel(const Bodies& b, const ShapeTable& shapes, const S
   if (static_cast<int>(radius_.size()) != b.size()) find_radii(b, shapes);
   double most = 0;
   const int n = b.size();
-#pragma omp parallel for schedule(static) reduction(max     \
-                                                    : most) \
-    num_threads(c.threads) if (c.threads > 1 && n > kFewBodies)
+  const int threads = c.threads_for(n);
+#pragma omp parallel for schedule(static) reduction(max \
+                                                    : most) num_threads(threads) if (threads > 1)
   for (int row = 0; row < n; row += 8) {
     Eightfold e;
     for (int i = row; i < std::min(n, row + 8); ++i) e.add(i);

@@ -27,7 +27,8 @@ bool PairMaterials::has_friction() const {
 }
 
 void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
-#pragma omp parallel for schedule(static) num_threads(c.threads) if (c.threads > 1)
+  const int threads = c.threads_for(b.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (int i = 0; i < b.size(); ++i) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
     for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {

@@ -130,7 +130,8 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   if (begin == end) return;
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
-#pragma omp parallel for schedule(dynamic) num_threads(c.threads) if (c.threads > 1)
+#pragma omp parallel for schedule(dynamic) \
+    num_threads(c.threads) if (c.threads > 1 && stretches > 1)
   for (int s = 0; s < stretches; ++s) {
     Found found;
     for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {

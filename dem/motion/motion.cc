@@ -87,7 +87,7 @@ void move(Bodies& b, int i, double dt) {
 template <class Free, class Held>
 StepWork each_eight(Bodies& b, const StepContext& c, Free&& free, Held&& held) {
   const int n = b.size();
-  return ordered_sum<StepWork>((n + 7) / 8, c.threads, [&](int row) {
+  return ordered_sum<StepWork>((n + 7) / 8, c.threads_for(n), [&](int row) {
     StepWork w;
     Eightfold e;
     for (int i = 8 * row; i < std::min(n, 8 * row + 8); ++i) {
