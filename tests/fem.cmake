@@ -7,7 +7,7 @@ target_compile_definitions(fem_meshes_test PRIVATE TRACKBED_MESHES="${PROJECT_SO
 trackbed_test(fem_statics verification trackbed_fem)
 trackbed_test(fem_dynamics verification trackbed_fem)
 trackbed_test(fem_plasticity verification trackbed_fem)
-trackbed_test(fem_reduction verification trackbed_fem)
+trackbed_test(fem_reduction verification trackbed_fem Eigen3::Eigen)
 trackbed_test(fem_beam verification trackbed_fem)
 trackbed_test(fem_rail_pad verification trackbed_fem)
 trackbed_test(fem_schemes verification trackbed_fem)
