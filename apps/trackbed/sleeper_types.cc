@@ -10,20 +10,24 @@ namespace {
 // A block with the base and the height at the rail seats of the real sleeper, and a density that
 // gives its mass; the real one's sides lean inwards and its middle is lower.
 //
-// Lengths and masses are those commonly quoted for the types; none was checked against a drawing.
-//   chinese_II   YII-F:  2.5 m, 251 kg, base 0.28 m (ends), 0.205 m at the seats
-//   chinese_III  IIIa:   2.6 m, 370 kg, base 0.32 m (ends), 0.23 m at the seats
+// Found on web pages that quote no drawing (zkxblog.com/lab/read-5185893.html for type II,
+// wapiknow.baidu.com/question/762775067153312204.html for type III):
+//   chinese_II   the new type II: 2.5 m long, 0.205 m high at the seats (0.175 m in the middle),
+//                0.3065 m at its widest, 283 kg
+//   chinese_III  2.6 m long, 0.23 m high at the seats (0.185 m in the middle), 353 kg
+// Commonly quoted and unchecked: the base of chinese_III, 0.32 m at the ends, and all of
 //   B70          B70 W-60: 2.6 m, 280 kg without fastenings, base 0.30 m, 0.21 m at the seats
 //   (DBS 918 143 names the type; size as meshes/sleeper_b70.geo)
-// Modulus: C60 of GB 50010, 36 GPa; B70's concrete is C50/60, 37 GPa (EN 1992-1-1, Table 3.1).
+// Modulus: C60 of GB 50010, 36 GPa; B70's concrete is C50/60 (cubes of
+// 60 N/mm2: tkgftgleistechnik.de, Oberbauhandbuch, sheet 222-01), 37 GPa (EN 1992-1-1, Table 3.1).
 // Seats: 1.435 m gauge and half a rail head on each side, 1.507 m from rail to rail.
 struct Type {
   const char* name;
   double length, width, height, mass, modulus;
 };
 
-constexpr Type kTypes[] = {{"chinese_II", 2.5, 0.28, 0.205, 251, 3.6e10},
-                           {"chinese_III", 2.6, 0.32, 0.23, 370, 3.6e10},
+constexpr Type kTypes[] = {{"chinese_II", 2.5, 0.3065, 0.205, 283, 3.6e10},
+                           {"chinese_III", 2.6, 0.32, 0.23, 353, 3.6e10},
                            {"B70", 2.6, 0.30, 0.21, 280, 3.7e10}};
 
 }  // namespace
