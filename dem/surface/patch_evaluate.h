@@ -243,19 +243,64 @@ bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
   return !cut.through;
 }
 
+/// The contacts that may touch, in order: some facet of theirs is not known to be apart. Of the
+/// others those that touched are released.
+inline void find_awake(const std::vector<double>& travel, PatchContacts& k) {
+  k.awake.clear();
+  for (int i = 0; i < k.round; ++i) {
+    const double now = travel[k.grain[i]] + k.node_travel;
+    const auto apart = [now](double wake) { return now < wake; };
+    if (std::all_of(&k.wake[k.first[i]], &k.wake[k.first[i + 1] - 1] + 1, apart))
+      release(k, i);
+    else
+      k.awake.push_back(i);
+  }
+}
+
+// What the next contacts need is asked for before, as in pair_evaluate.h: few of the bed's contacts
+// are with surfaces, and the many others have pushed all of it out since the last step.
+inline void fetch_contact(const Bodies& b, const ShapeTable& shapes, PatchContacts& k, int i) {
+  const int g = k.grain[i];
+  for (const Vec3* at : {&b.x[g], &b.v[g], &b.turn[g]})  // may lie across two lines
+    fetch_lines(at->data(), 1), fetch_lines(at->data() + 2, 1);
+  fetch_lines(&b.R[g], 2);
+  fetch_lines(&shapes.part(b.shape[g], k.part[i]), 2);
+  for_each_contact_array(k, [i](const char*, const auto& v) { fetch_lines(&v[i], 1); });
+  fetch_lines(&k.nodal[i], 1);
+}
+
+inline void fetch_shape(const Bodies& b, const ShapeTable& shapes, const PatchContacts& k, int i) {
+  const ConvexView& v = shapes.part(b.shape[k.grain[i]], k.part[i]).core;
+  fetch_lines(v.x, v.padded / 8);
+  fetch_lines(v.y, v.padded / 8);
+  fetch_lines(v.z, v.padded / 8);
+  fetch_lines(v.loop_begin, 1);
+  fetch_lines(v.loop, 2);
+  if (v.vertex_faces) fetch_lines(v.vertex_faces, (v.vertices + 7) / 8);
+  if (k.nodal[i].capacity() > 0) fetch_lines(k.nodal[i].data(), 2);
+}
+
 template <class Law, bool friction>
 void evaluate_patch(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                     const StepContext& c, const std::vector<double>& travel,
                     const SurfacePatch& patch, PatchContacts& k) {
   if (static_cast<int>(k.workspaces.size()) < c.threads) k.workspaces.resize(c.threads);
-  int through = k.round;  // first contact of a grain that the shell cannot hold
-#pragma omp parallel for schedule(dynamic, 4) num_threads(c.threads) \
-    reduction(min                                                    \
+  find_awake(travel, k);
+  const int awake = static_cast<int>(k.awake.size());
+  int through = k.round;    // first contact of a grain that the shell cannot hold
+  constexpr int share = 8;  // of a thread at a time; the next contact beyond it may be another's
+#pragma omp parallel for schedule(dynamic, share) num_threads(c.threads) \
+    reduction(min                                                        \
               : through) if (c.threads > 1)
-  for (int i = 0; i < k.round; ++i)
+  for (int n = 0; n < awake; ++n) {
+    const int i = k.awake[n];
+    const int end = c.threads > 1 ? std::min(awake, (n / share + 1) * share) : awake;
+    if (n + 2 < end) fetch_contact(b, shapes, k, k.awake[n + 2]);
+    if (n + 1 < end) fetch_shape(b, shapes, k, k.awake[n + 1]);
     if (!evaluate_patch_contact<Law, friction>(b, shapes, materials, c, travel, patch,
                                                k.workspaces[omp_get_thread_num()], k, i))
       through = std::min(through, i);
+  }
   if (through < k.round)
     throw RunError("grain " + std::to_string(k.grain[through]) + " goes deeper into surface '" +
                    patch.name + "' than its contact shell of " +

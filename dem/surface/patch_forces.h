@@ -47,6 +47,7 @@ struct PatchContacts {
   // Forces on nodes, per contact, of the last evaluation.
   std::vector<std::vector<std::pair<int, Vec3>>> nodal;
   std::vector<OverlapWorkspace> workspaces;
+  std::vector<int> awake;  ///< of plain polyhedra, at the last evaluation
 
   int size() const { return static_cast<int>(grain.size()); }
 };
