@@ -138,6 +138,25 @@ struct Reach {
   }
 };
 
+/// The facet's planes (Facet::planes, as bits) that some corner of the cap lies outside of. `M`,
+/// `origin`: from the facet's place to the frame.
+unsigned planes_passed(const Cap& cap, const Facet& facet, const Mat3& M, const Vec3& origin) {
+  const Eight nx = Eight::load(facet.nx), ny = Eight::load(facet.ny), nz = Eight::load(facet.nz);
+  const auto row = [&](int r) {
+    return fma(Eight(M(r, 0)), nx, fma(Eight(M(r, 1)), ny, Eight(M(r, 2)) * nz));
+  };
+  const Eight x = row(0), y = row(1), z = row(2);
+  const auto along = [&](const Vec3& p, Eight start) {
+    return fma(x, Eight(p.x()), fma(y, Eight(p.y()), fma(z, Eight(p.z()), start)));
+  };
+  const Eight limit = along(origin, Eight::load(facet.offset)), zero(0.0);
+  unsigned passed = 0;
+  for (int f = 0; f < cap.polygons; ++f)
+    for (int i = 0; i < cap.polygon[f].n; ++i)
+      passed |= less(limit, along(cap.polygon[f].p[i], zero));
+  return passed;
+}
+
 void append(const Cap& cap, OverlapWorkspace& work) {
   for (int f = 0; f < cap.polygons; ++f) {
     const Polygon& polygon = cap.polygon[f];
@@ -230,7 +249,10 @@ FacetOverlap cut_behind_facet(const ConvexView& grain, const Pose& pose, const F
   if (!make_cap(grain, at, to_frame * pose.R, to_frame * (pose.x - frame.origin), cap))
     return FacetOverlap::not_for_one_facet;
   const Vec3 origin = to_frame * (facet.origin - frame.origin);
-  for (const Facet::Side& side : facet.side) {
+  const unsigned passed = planes_passed(cap, facet, to_frame, origin);
+  for (int k = 0; k < 3; ++k) {
+    if ((passed >> (1 + 2 * k) & 3) == 0) continue;  // both planes of the side
+    const Facet::Side& side = facet.side[k];
     Vec3 normal = to_frame * side.normal[0];
     double offset = side.offset[0] + normal.dot(origin);
     const Reach reach(cap, normal, offset);
