@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "dem/contact/fetch.h"
 #include "dem/contact/friction.h"
 #include "dem/contact/pair_evaluate.h"
 #include "dem/contact/pressure.h"
@@ -259,25 +260,28 @@ inline void find_awake(const std::vector<double>& travel, PatchContacts& k) {
 
 // What the next contacts need is asked for before, as in pair_evaluate.h: few of the bed's contacts
 // are with surfaces, and the many others have pushed all of it out since the last step.
-inline void fetch_contact(const Bodies& b, const ShapeTable& shapes, PatchContacts& k, int i) {
+[[gnu::always_inline]] inline void fetch_contact(const Bodies& b, const ShapeTable& shapes,
+                                                 const PatchContacts& k, int i) {
   const int g = k.grain[i];
-  for (const Vec3* at : {&b.x[g], &b.v[g], &b.turn[g]})  // may lie across two lines
-    fetch_lines(at->data(), 1), fetch_lines(at->data() + 2, 1);
+  fetch(b.x[g]), fetch(b.v[g]), fetch(b.turn[g]);
   fetch_lines(&b.R[g], 2);
   fetch_lines(&shapes.part(b.shape[g], k.part[i]), 2);
-  for_each_contact_array(k, [i](const char*, const auto& v) { fetch_lines(&v[i], 1); });
+  for (const auto* v : {&k.friction, &k.arm, &k.force, &k.torque, &k.normal_force, &k.point})
+    fetch_lines(&(*v)[i], 1);
+  for (const auto* v : {&k.friction_stiffness, &k.energy, &k.friction_energy, &k.friction_loss,
+                        &k.area, &k.depth, &k.stiffness, &k.tilt_stiffness})
+    fetch_lines(&(*v)[i], 1);
   fetch_lines(&k.nodal[i], 1);
 }
 
-inline void fetch_shape(const Bodies& b, const ShapeTable& shapes, const PatchContacts& k, int i) {
+[[gnu::always_inline]] inline void fetch_shape(const Bodies& b, const ShapeTable& shapes,
+                                               const PatchContacts& k, int i) {
   const ConvexView& v = shapes.part(b.shape[k.grain[i]], k.part[i]).core;
-  fetch_lines(v.x, v.padded / 8);
-  fetch_lines(v.y, v.padded / 8);
-  fetch_lines(v.z, v.padded / 8);
+  fetch_lines(v.x, 3 * (v.padded / 8));  // y and z follow
   fetch_lines(v.loop_begin, 1);
   fetch_lines(v.loop, 2);
   if (v.vertex_faces) fetch_lines(v.vertex_faces, (v.vertices + 7) / 8);
-  if (k.nodal[i].capacity() > 0) fetch_lines(k.nodal[i].data(), 2);
+  fetch_lines(k.nodal[i].data(), 3);
 }
 
 template <class Law, bool friction>
