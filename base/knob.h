@@ -16,6 +16,7 @@ struct Knob {
   std::string meaning;   ///< which error it makes
   std::vector<std::string> rungs;
   std::vector<std::string> also;  ///< "Section/Key=value" that the last rung cannot do without
+  std::vector<std::string> with;  ///< the same of every rung but the scene's own
   double factor = 1;
   int cheaper = 0, finer = 0;
   bool whole = false;  ///< the numbers are counts: rounded, at least 1

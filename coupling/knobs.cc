@@ -16,10 +16,11 @@ std::vector<Knob> coupling_knobs() {
   interval.quantity = "settlement";
   interval.meaning = "grain steps for each step of the structures";
   interval.factor = 0.5;
-  interval.cheaper = 2;
+  interval.cheaper = 3;
   interval.finer = 3;
   interval.whole = true;
-  interval.needs = "Numerics/Exchange=several_steps";
+  interval.with = {"Numerics/Exchange=several_steps"};
+  interval.needs = "Numerics/Exchange!=iterated";
   return {schedule, interval};
 }
 

@@ -9,5 +9,7 @@ namespace trackbed::dem {
 std::vector<Knob> motion_knobs();
 std::vector<Knob> contact_knobs();
 std::vector<Knob> grading_knobs();
+std::vector<Knob> grain_knobs();
+std::vector<Knob> packing_knobs();
 
 }  // namespace trackbed::dem

@@ -46,7 +46,7 @@ std::vector<Knob> fem_knobs() {
   bending.path = "Sleeper/Model";
   bending.quantity = "bending_moment";
   bending.meaning = "a rigid sleeper leaves its bending out";
-  bending.rungs = {"rigid", "elastic"};
+  bending.rungs = {"rigid", "beam", "elastic"};
 
   Knob cells;
   cells.name = "sleeper_elements";

@@ -87,6 +87,13 @@ def density(run):
     return float(finite(run.table("compaction.csv")["density_kg_per_m3"], "density_kg_per_m3")[-1])
 
 
+def class_deviation(run):
+    """Largest difference of a sieve class from its target, as a share of the mass."""
+    table = run.table("classes.csv")
+    gap = np.abs(finite(table["achieved_percent"], "achieved_percent") - finite(table["target_percent"], "target_percent"))
+    return float(gap.max()) / 100
+
+
 def dissipations(energy):
     """Names of the dissipation columns and what they are called on the page."""
     return [(name, name[len("dissipated_"):-len("_J")].replace("_", " ")) for name in energy.columns

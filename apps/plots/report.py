@@ -113,7 +113,7 @@ def pictures(run, folder, width=None):
     else:
         made.append(("bed", "The bed", lambda: bed_picture.stones(run, bed=bed, **options)))
         made.append(("chains", "Force chains", lambda: bed_picture.chains(run, bed=bed, backdrop=backdrop, **options)))
-    made.append(("structures", "The structures", lambda: bed_picture.structures(run, bed=bed, **options)))
+    made.append(("structures", "A picture of the structures", lambda: bed_picture.structures(run, bed=bed, **options)))
     for name, title, make in made:
         picture, why = attempt(make)
         if picture is None:
@@ -140,7 +140,7 @@ LIMITS = [("time step share", None, 1.0, "time step, of the measured stability l
 
 
 def limits(run):
-    """How near the run came to its limits; what passed one is marked."""
+    """How near the run came to its limits, and which tolerance or aim was not met."""
     table, why = attempt(run.table, "summary.csv")
     if table is None:
         return page.section("How near to the limits", page.missing("The table of limits", why))
@@ -155,11 +155,22 @@ def limits(run):
 
     def row(words, value, limit):
         share = value / limit if limit else float("nan")
-        says = "–" if share != share else "PASSED" if share > 1 else f"{number(100 * share, 2)} % of it"
+        says = "–" if share != share else "EXCEEDED" if share > 1 else f"{number(100 * share, 2)} % of it"
         rows.append((words, number(value), number(limit), says))
 
     for name, path, fixed, words in LIMITS:
         row(words, number_of(values.get(name)), fixed if fixed else number_of(given.get(path)))
+    for name in values:
+        if name.startswith("unrest of "):
+            row(f"rest at the end of {name[len('unrest of '):]}: what moves, over what is allowed", number_of(values[name]), 1)
+    deviation, _ = attempt(measures.class_deviation, run)
+    if deviation is not None:
+        row("gradation: deviation of a class, of the mass", deviation, number_of(given.get("Gradation/Tolerance")))
+    target = number_of(given.get("Packing/Target density"))
+    density, _ = attempt(measures.density, run)
+    if density is not None and given.get("Packing/Method") == "tamping" and target > 0:
+        rows.append(("density after tamping (kg/m³), to be reached", number(density, 4), number(target, 4),
+                     "reached" if density >= target else f"NOT REACHED, {number(100 * density / target, 3)} % of it"))
     created, _ = attempt(lambda: max(0.0, float(measures.finite(measures.closure(run)[1], "closure").max())))
     if created is not None:
         row("of that, energy created", created, number_of(given.get("Numerics/Closure")))

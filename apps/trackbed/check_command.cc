@@ -13,6 +13,7 @@
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/layout.h"
 #include "apps/trackbed/simulation/replay.h"
+#include "apps/trackbed/simulation/seam.h"
 #include "apps/trackbed/simulation/zones.h"
 #include "dem/grain/library_report.h"
 
@@ -123,6 +124,7 @@ int check_command(const CheckOptions& options) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   const int threads = options.threads > 0 ? options.threads : cores > 0 ? cores : 1;
   const Plan plan = make_plan(scene, threads);
+  check_seam_of_drawn(scene);
 
   std::printf("%s: %s\n\n", scene.file.c_str(), scene.title.c_str());
   std::printf("Container   %g x %g m, %g m deep%s%s\n", scene.container.length,

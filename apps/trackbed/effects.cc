@@ -1,11 +1,19 @@
 #include "apps/trackbed/effects.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "apps/trackbed/csv.h"
+#include "apps/trackbed/simulation/actors.h"
 
 namespace trackbed::apps {
 namespace {
+
+std::string rounded(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", x);
+  return text;
+}
 
 std::string text_of(const StructureCost& c) {
   if (c.unknowns == 0) return "one solve or product a step";  // not measured
@@ -42,6 +50,19 @@ std::string zones_cost(const Scene&, const Plan& plan) {
          shortest(std::round(plan.all_fine)) + " of a bed that is fine everywhere";
 }
 
+std::string push_cost(const Scene& s, const Plan& plan) {
+  std::string text = "a stage of its own after the load cycles";
+  const SleeperScene& l = s.sleeper;
+  const double mass = l.density * l.length * l.width * l.height;
+  for (const PlanStage& stage : plan.stages)
+    if (stage.name == "push" &&
+        push_stiffness(s.loading, mass, stage.time_step) < s.loading.push_stiffness)
+      text += "; Push stiffness lowered to about " +
+              rounded(push_stiffness(s.loading, mass, stage.time_step)) +
+              " N/m, which a sleeper of " + rounded(mass) + " kg bears at such steps";
+  return text;
+}
+
 std::string exchange_cost(const Scene& s, const Plan&) {
   const NumericsScene& n = s.numerics;
   if (n.exchange == "several_steps")
@@ -62,6 +83,9 @@ const std::vector<EffectKind>& effect_kinds() {
       {"under-sleeper pad", "Sleeper/Pad thickness", "0", "0.01", "elements of a second material",
        [](const Scene& s) { return s.sleeper.model != "rigid" && s.sleeper.pad_thickness > 0; },
        nullptr},
+      {"rail pads", "Sleeper/Pad stiffness", "0", "1e8",
+       "a spring and dashpot at each seat, solved by one formula a step",
+       [](const Scene& s) { return s.sleeper.rail_pad.stiffness > 0; }, nullptr},
       {"elastic subgrade", "Subgrade/Model", "rigid", "layered_elastic",
        "a finite element step, contacts with its deforming surface",
        [](const Scene& s) { return s.subgrade.model != "rigid"; },
@@ -86,7 +110,7 @@ const std::vector<EffectKind>& effect_kinds() {
        nullptr},
       {"push of the sleeper", "Loading/Push", "none", "longitudinal",
        "a stage of its own after the load cycles",
-       [](const Scene& s) { return s.loading.push != "none"; }, nullptr},
+       [](const Scene& s) { return s.loading.push != "none"; }, push_cost},
       {"periodic along track", "Container/Periodic along track", "false", "true",
        "images of grains at the seam", [](const Scene& s) { return s.container.periodic; },
        nullptr},

@@ -301,7 +301,8 @@ void add_loading(Section s) {
   s.number("Push speed", "0.01", "m/s", 1e-6, 10, "of the actuator");
   s.number("Push distance", "0.005", "m", 1e-6, 1, "of the actuator");
   s.number("Push stiffness", "1e7", "N/m", 1e3, 1e12,
-           "of the actuator between its drive and the sleeper");
+           "of the actuator between its drive and the sleeper; lowered to what a light sleeper bears "
+           "at the run's time step");
 }
 
 void add_grain_test(Section s) {

@@ -12,6 +12,7 @@
 #include "apps/trackbed/simulation/layout.h"
 #include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/replay.h"
+#include "apps/trackbed/simulation/seam.h"
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
 #include "apps/trackbed/simulation/zones.h"
@@ -70,13 +71,18 @@ StructureCost measure(fem::Structure& structure, double dt) {
   return cost;
 }
 
-/// Some grains as small as the smallest class has them: they set the time step.
-coupling::World sample_of_smallest(const Scene& scene, double size) {
+/// Some shapes as small as the smallest class has them.
+std::vector<dem::GrainShape> sample_of_smallest(const Scene& scene, double size) {
   dem::LibraryParameters parameters = library_parameters(scene);
   parameters.count = std::max(24, parameters.needles + parameters.flakes);
   std::vector<dem::GrainShape> shapes;
   for (const auto& shape : make_grain_library(scene, parameters, {}))
     shapes.push_back(dem::scaled(shape, size));
+  return shapes;
+}
+
+/// They set the time step.
+coupling::World world_of(const Scene& scene, const std::vector<dem::GrainShape>& shapes) {
   coupling::World world;
   coupling::add_grains(world, shapes, std::vector<dem::Vec3>(shapes.size(), dem::Vec3::Zero()),
                        std::vector<dem::Quat>(shapes.size(), dem::Quat::Identity()),
@@ -84,22 +90,16 @@ coupling::World sample_of_smallest(const Scene& scene, double size) {
   return world;
 }
 
-std::string millimetres(double length) { return shortest(std::round(1000 * length)) + " mm"; }
-
-/// A run would refuse it only once the bed is packed. Half of the sample's shapes are longer than
-/// its median, so what is refused here is refused there.
-void check_seam(const Layout& layout, const coupling::World& sample, double enlarged) {
-  const double period = layout.period.y();
-  if (period == 0) return;
-  std::vector<double> width;
-  for (int i = 0; i < sample.bodies.grains; ++i)
-    width.push_back(2 * enlarged * sample.shapes.shape(sample.bodies.shape[i]).radius);
-  std::nth_element(width.begin(), width.begin() + width.size() / 2, width.end());
-  const double typical = width[width.size() / 2];
-  if (period < 3 * typical)
-    throw InputError("Container/Periodic along track: the period of " + millimetres(period) +
-                     " is less than three grains of the largest class (" + millimetres(typical) +
-                     " each)");
+/// What half of the sample's shapes are too long for is refused without drawing grains; the rest
+/// by check_seam_of_drawn() and by a run before it packs.
+void check_period(const Scene& scene, const std::vector<dem::GrainShape>& sample, double enlarged) {
+  std::vector<double> radius;
+  for (const dem::GrainShape& g : sample) radius.push_back(g.radius);
+  const auto middle = radius.begin() + static_cast<std::ptrdiff_t>(radius.size() / 2);
+  std::nth_element(radius.begin(), middle, radius.end());
+  dem::GrainShape typical;
+  typical.radius = enlarged * *middle;
+  check_seam(sample_layout(scene).period.y(), {typical});
 }
 
 /// A run measures the limit of its own grains; what is far over the sample's is refused there.
@@ -136,8 +136,9 @@ Plan make_plan(const Scene& scene, int threads) {
   auto stages = packing_stages(scene);
   const auto loading = loading_stages(scene);
   stages.insert(stages.end(), loading.begin(), loading.end());
-  coupling::World sample = sample_of_smallest(scene, least);
-  check_seam(layout, sample, largest / least);
+  const auto smallest = sample_of_smallest(scene, least);
+  check_period(scene, smallest, largest / least);
+  coupling::World sample = world_of(scene, smallest);
   const double given = scene.numerics.time_step;
   dem::ContactExpectation expect;
   expect.flat_faces = dem::make_round_forces(scene.contact.round_law, true).flat_faces;

@@ -25,7 +25,21 @@ std::vector<Knob> contact_knobs() {
   law.quantity = "energy_drift";
   law.meaning = "normal contact law; the last one is the gradient of a stored energy";
   law.rungs = {"shao2017", "stored_energy"};
-  return {modulus, packing, law};
+
+  Knob round;
+  round.name = "round_law";
+  round.path = "Contact/Round law";
+  round.quantity = "stiffness";
+  round.meaning = "law of round grains, from a constant stiffness to Hertz's and Mindlin's";
+  round.rungs = {"linear", "sun2015", "hertz_mindlin"};
+  round.needs = "Grains/Shape!=polyhedron";
+
+  Knob flat = round;
+  flat.name = "flat_faces";
+  flat.meaning = "faces of dilated grains touch at a point, or answer by the area they meet on";
+  flat.rungs = {"hertz_mindlin", "hertz_flat"};
+  flat.needs = "Grains/Shape=dilated";
+  return {modulus, packing, law, round, flat};
 }
 
 }  // namespace trackbed::dem

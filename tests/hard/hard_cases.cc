@@ -72,7 +72,8 @@ void write_curves(const std::string& file, bool slow, const std::string& only) {
   }
 }
 
-// Growth per step of two masses: half of omega dt, contact over ground stiffness, sub-cycling.
+// Growth per step of a grain on a column of finite elements: half of omega dt, contact over ground
+// stiffness, sub-cycling.
 void write_map(const std::string& file) {
   std::ofstream out(file);
   out << "schedule,grain_steps,step_share,stiffness_ratio,mass,growth\n";
@@ -84,7 +85,8 @@ void write_map(const std::string& file) {
         m.contact = ratio * m.ground;
         double growth = 1e300;
         try {
-          growth = coupling::growth(2 * share, coupling::exchange(schedule, n), m);
+          growth = coupling::growth(2 * share, coupling::exchange(schedule, n), m,
+                                    coupling::Ground::element);
         } catch (const std::exception&) {  // refused, or not converged
         }
         out << schedule << ',' << n << ',' << share << ',' << ratio << ',' << m.mass << ','

@@ -171,7 +171,7 @@ class Runs(SceneTest):
 
     def test_periodic(self):
         self.assert_sound(self.run_scene("a", change={
-            **SHORT, "Container/Periodic along track": "true", "Container/Width": "0.18",
+            **SHORT, "Container/Periodic along track": "true", "Container/Width": "0.19",
             "Container/Ballast depth": "0.06"}))
 
     def test_every_shape(self):
@@ -284,17 +284,21 @@ class Structures(SceneTest):
     def test_push(self):
         """The actuator takes the sleeper along. How much a bed of fifty grains resists says nothing."""
         push = {**SHORT, "Loading/Push": "longitudinal", "Loading/Push speed": "0.02",
-                "Loading/Push distance": "0.0003", "Loading/Push stiffness": "1e6"}
-        dashpot = (1e6 * 2800 * 0.07 * 0.08 * 0.03) ** 0.5
-        for model in ("rigid", "elastic"):
-            run = self.run_scene(model, change={**push, "Sleeper/Model": model})
+                "Loading/Push distance": "0.0003"}
+        mass = 2800 * 0.07 * 0.08 * 0.03
+        for model, given in (("rigid", 1e5), ("elastic", 1e5), ("elastic", 1e9)):
+            run = self.run_scene(f"{model}_{given:g}", change={**push, "Sleeper/Model": model,
+                                                               "Loading/Push stiffness": str(given)})
+            spring = float(self.summary(run)["push stiffness"])
+            self.assertEqual(spring == given, given < 1e9)   # so stiff a one is lowered
+            dashpot = (spring * mass) ** 0.5
             table = [{key: float(cell) for key, cell in row.items()} for row in rows(run / "push.csv")]
             self.assertGreaterEqual(len(table), 3)
             for row in table[1:]:
                 way = 0.02 * (row["time_s"] - table[0]["time_s"])
-                # F = k (way - x) + c (v0 - v), c = sqrt(k m); grains may throw it back or on by v0 at most.
-                self.assertAlmostEqual(row["displacement_m"] + row["force_N"] / 1e6, way,
-                                       delta=2 * dashpot / 1e6 * 0.02)
+                # F = k (way - x) + c (v0 - v), c = sqrt(k m); grains may throw it back or on by 3 v0 at most.
+                self.assertAlmostEqual(row["displacement_m"] + row["force_N"] / spring, way,
+                                       delta=4 * dashpot / spring * 0.02)
                 self.assertNotEqual(row["force_N"], 0)
                 self.assertLess(abs(row["force_N"]), 100)
                 self.assertAlmostEqual(row["load_N"], 20, delta=1e-9)
@@ -461,14 +465,14 @@ class Packings(SceneTest):
         self.assertEqual(stages, ["deposit", "layers", "sleeper in", "hardening"])
 
     def test_bays(self):
-        change = {"Packing/Method": "deposit", "Container/Periodic along track": "true", "Container/Width": "0.36",
+        change = {"Packing/Method": "deposit", "Container/Periodic along track": "true", "Container/Width": "0.38",
                   "Packing/Bays": "2", "Container/Ballast depth": "0.06", "Packing/Settle time": "1.5"}
         run = self.pack("a", "--export", "csv", change=change)
         grains = self.grains(run)
         half = len(grains) // 2
         # The seam of a periodic sample needs no settling: the second bay still is the first one moved on.
         moved = [float(b["y_m"]) - float(a["y_m"]) for a, b in zip(grains[:half], grains[half:])]
-        self.assertLess(sorted(abs(m - 0.18) for m in moved)[half // 2], 1e-3)
+        self.assertLess(sorted(abs(m - 0.19) for m in moved)[half // 2], 1e-3)
 
     def test_cylinder(self):
         run = self.pack("a", "--export", "csv", change={"Container/Shape": "cylinder", "Container/Width": "0.13"})

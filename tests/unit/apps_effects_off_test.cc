@@ -9,6 +9,7 @@
 
 #include "apps/trackbed/effects.h"
 #include "apps/trackbed/read_scene.h"
+#include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/stage.h"
 #include "apps/trackbed/simulation/structures.h"
 
@@ -103,6 +104,20 @@ TEST(EffectsOff, no_push_has_neither_stage_nor_load) {
   const Changes room{"Sleeper/Model=elastic", "Loading/Push=longitudinal"};
   EXPECT_EQ(sleeper({"Sleeper/Model=elastic"})->loads() + 1, sleeper(room)->loads());
   EXPECT_EQ(loading_stages(tiny()).size() + 1, loading_stages(tiny(room)).size());
+}
+
+// Off: where the load acts is where the sleeper is. On: load over stiffness farther.
+TEST(EffectsOff, no_rail_pad_is_no_compression) {
+  for (const double stiffness : {0., 1e10}) {
+    trackbed::apps::Run run;
+    run.scene = tiny({"Sleeper/Pad stiffness=" + std::to_string(stiffness)});
+    run.layout = make_layout(run.scene);
+    run.stage.load = 100;
+    compress_pads(run, 50, 1e-5);
+    EXPECT_EQ(run.stage.pad, stiffness > 0 ? 100 / stiffness : 0);
+    EXPECT_EQ(run.stage.pad_work > 0, stiffness > 0);
+    EXPECT_EQ(pads_energy(run) > 0, stiffness > 0);
+  }
 }
 
 TEST(EffectsOff, no_symmetry_is_a_whole_box) {

@@ -641,14 +641,24 @@ class Report(Folder):
         folder = self.copy()
         write_csv(os.path.join(folder, "summary.csv"), ["quantity", "value", "unit", "meaning"],
                   [("time step share", "0.4", "-", ""), ("largest overlap", "0.3", "-", ""),
-                   ("closure", "0.001", "-", "")])
+                   ("closure", "0.001", "-", ""), ("unrest of deposit", "0.9", "-", ""),
+                   ("unrest of hardening", "2.5", "-", "")])
+        write_csv(os.path.join(folder, "classes.csv"),
+                  ["low_m", "high_m", "target_percent", "achieved_percent", "grains"],
+                  [(0.02, 0.03, 40, 43, 9), (0.03, 0.04, 60, 57, 7)])
+        write_csv(os.path.join(folder, "compaction.csv"), ["cycle", "time_s", "height_m", "density_kg_per_m3"],
+                  [(1, 0.1, 0.3, 1200.0), (2, 0.2, 0.28, 1240.0)])
         with open(os.path.join(folder, "scene.resolved.prm"), "w") as file:
             file.write("subsection Contact\n set Largest overlap = 0.2\nend\n"
+                       "subsection Gradation\n set Tolerance = 0.1\nend\n"
+                       "subsection Packing\n set Method = tamping\n set Target density = 1550\nend\n"
                        "subsection Numerics\n set Closure = 0.01\nend\n")
         text = report.limits(read_run.Run(folder))
         self.assertIn("40 % of it", text)
         self.assertIn("10 % of it", text)
-        self.assertEqual(text.count("PASSED"), 1)
+        self.assertEqual(text.count("EXCEEDED"), 2)      # overlap, rest of the hardening
+        self.assertIn("30 % of it", text)                # 3 of 10 % in a class
+        self.assertIn("NOT REACHED, 80 % of it", text)
 
     def test_text_is_escaped(self):
         folder = self.copy()

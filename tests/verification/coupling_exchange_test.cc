@@ -46,6 +46,15 @@ TEST(TwoMasses, one_of_several_steps_is_the_default) {
             one_exchange(s, .05, exchange("predicted")));
 }
 
+// A column of one element is the same mass on the same spring.
+TEST(TwoMasses, on_finite_elements_grow_as_on_a_spring) {
+  for (const Exchange& e : {exchange("predicted"), exchange("lagged"), exchange("explicit"),
+                            exchange("several_steps", 2), exchange("several_steps", 10)})
+    for (const double W : {.1, .5})
+      EXPECT_NEAR(growth(W, e, {}, Ground::element), growth(W, e), 1e-8)
+          << static_cast<int>(e.schedule) << ' ' << e.grain_steps << ' ' << W;
+}
+
 struct Bounce {
   double closure, transfer, work, momentum, owed, peak, rebound, contact_time;
   long iterations;

@@ -31,12 +31,7 @@ std::vector<Knob> scene_knobs() {
       scaled("domain_length", "Container/Length", "settlement", 1.25, 1, 2,
              "walls across the track near the sleeper hold the ballast"),
       scaled("domain_width", "Container/Width", "settlement", 1.25, 1, 2,
-             "walls or the periodic seam along the track"),
-      scaled("library_size", "Grains/Library size", "porosity", 4, 2, 0,
-             "few shapes repeat themselves in the bed"),
-      scaled("rest", "Packing/Quiet", "porosity", 0.1, 1, 1,
-             "kinetic energy below which a stage of the packing counts as at rest")};
-  knobs[3].whole = true;
+             "walls or the periodic seam along the track")};
   return knobs;
 }
 
@@ -70,8 +65,9 @@ std::string scaled_text(const Knob& knob, const std::vector<double>& own, int st
 
 std::vector<Knob> all_knobs() {
   std::vector<Knob> knobs;
-  for (const auto& list : {dem::motion_knobs(), dem::contact_knobs(), dem::grading_knobs(),
-                           fem::fem_knobs(), coupling::coupling_knobs(), scene_knobs()})
+  for (const auto& list :
+       {dem::motion_knobs(), dem::contact_knobs(), dem::grain_knobs(), dem::grading_knobs(),
+        dem::packing_knobs(), fem::fem_knobs(), coupling::coupling_knobs(), scene_knobs()})
     knobs.insert(knobs.end(), list.begin(), list.end());
   return knobs;
 }

@@ -49,6 +49,7 @@ void add_ladder(Study& study, const Knob& knob, const Scene& scene) {
     std::vector<std::string> set{knob.path + "=" + rung.value};
     if (!knob.rungs.empty() && rung.value == knob.rungs.back())
       set.insert(set.end(), knob.also.begin(), knob.also.end());
+    if (!rung.own) set.insert(set.end(), knob.with.begin(), knob.with.end());
     study.variants.push_back({knob.name, rung.value, index++, rung.h, rung.own, set, {}, {}});
   }
 }

@@ -55,11 +55,18 @@ void compress_pads(Run&, double before, double dt);
 /// Stored in the springs of all rail pads [J].
 double pads_energy(const Run&);
 
+/// Of a push's actuator [N/m]: the scene's, or the most that a sleeper of this mass [kg] bears at
+/// steps of dt [s], k = (0.01/dt)^2 m. The force is found a step late, so its dashpot feeds those
+/// vibrations of an elastic sleeper that turn by more than a quarter in that time.
+double push_stiffness(const LoadingScene&, double mass, double dt);
+
 /// The actuator of a push stands at `target` from its start [m]: the force of its spring and
 /// dashpot (half of critical) on the sleeper from now on.
 void apply_push(Run&, double target);
 
-/// The sleeper's displacement along the push against where it was put in [m].
+/// The sleeper's displacement along the push against where it was put in [m]: of an elastic one
+/// the mean over its surface's nodes. The face that is pushed would show its vibrations, which the
+/// late force would feed.
 double push_displacement(const Run&);
 
 /// Highest point of the grains within a plan-view rectangle [m].

@@ -14,7 +14,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr const char* kVersion = "packing 9";  // raised when packings come out differently
+constexpr const char* kVersion = "packing 10";  // raised when packings come out differently
 
 // Parameters that a packing does not depend on, by section or by key.
 bool matters(const std::string& key) {

@@ -115,11 +115,18 @@ void write_summary(const Run& run, const std::string& file, double wall) {
   row("contact modulus", run.scene.contact.modulus, "Pa", "softer than rock: larger overlaps");
   row("largest overlap", s.largest_overlap, "-", "depth over the smaller grain's size");
   row("time step share", s.largest_step_share, "-", "largest, of the measured stability limit");
+  const auto stages = packing_stages(run.scene);
+  for (std::size_t k = 0; k < std::min(stages.size(), s.unrest.size()); ++k)
+    if (stages[k].until_quiet)
+      csv.row({"unrest of " + stages[k].name, s.unrest[k], "-",
+               "at its end, over what Packing/Quiet (and Unbalanced force) allows"});
   row("closure", s.work_in > 0 ? CsvCell(s.worst_closure / s.work_in) : CsvCell(), "-",
       "largest energy not accounted for, over the work put in while loading");
   row("closure tolerance", run.scene.numerics.closure, "-", "stated in the scene");
   row("exchange gain", s.work_in > 0 ? CsvCell(s.exchange_gain / s.work_in) : CsvCell(), "-",
       "largest energy that the exchange made, over the work put in while loading");
+  if (run.scene.loading.push != "none")
+    row("push stiffness", s.push_stiffness, "N/m", "of the actuator, as its step allowed");
   for (const coupling::Surface& surface : w.surfaces)
     csv.row({"unknowns of the " + surface.patch.name, surface.structure->unknowns(), "-",
              "finite element degrees of freedom"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 
 #include "apps/trackbed/signals.h"
@@ -21,18 +22,40 @@ namespace {
 constexpr int kMonitorSteps = 100;  // between looks at limits and state
 constexpr int kWatchSteps = 10;     // between looks at the porosity of a bed to be stopped
 
-bool at_rest(const Run& run, const Stage& stage) {
+// How far from rest: kinetic energy, and where the stage asks for it the unbalanced force, over
+// what is allowed; the larger.
+double unrest(const Run& run, const Stage& stage) {
   const dem::Bodies& b = run.world.bodies;
   double kinetic = 0, weight = 0;
   for (int i = 0; i < b.grains; ++i) {
     kinetic += 0.5 * b.mass[i] * b.v[i].squaredNorm() + 0.5 * b.L[i].dot(b.omega[i]);
     weight += b.mass[i] * 9.81 * run.world.shapes.shape(b.shape[i]).sieve_size;
   }
-  return run.world.time - run.stage.start > 0.05 && stage.until_quiet &&
-         kinetic < run.scene.packing.quiet * weight &&
-         (stage.unbalanced <= 0 ||
-          dem::unbalanced_share(b, run.world.pairs, step_context(run, stage).gravity) <
-              stage.unbalanced);
+  const double moves = kinetic / (run.scene.packing.quiet * weight);
+  if (stage.unbalanced <= 0 || moves >= 1) return moves;
+  const dem::Vec3 gravity = step_context(run, stage).gravity;
+  return std::max(moves, dem::unbalanced_share(b, run.world.pairs, gravity) / stage.unbalanced);
+}
+
+bool at_rest(const Run& run, const Stage& stage) {
+  return run.world.time - run.stage.start > 0.05 && stage.until_quiet && unrest(run, stage) < 1;
+}
+
+// What a stage was to reach and has not, said and kept for the summary.
+void note_unmet(Run& run, const Stage& stage, bool reached, Progress& progress) {
+  if (!stage.aim.empty() && !reached)
+    progress.note(stage.name + ": ended by its longest time, " + stage.aim + " not reached");
+  if (!stage.until_quiet) return;
+  StageState& s = run.stage;
+  s.unrest.resize(std::max<std::size_t>(s.unrest.size(), s.index + 1), 0.0);
+  s.unrest[s.index] = unrest(run, stage);
+  if (s.unrest[s.index] < 1) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "%s: ended by its longest time, not at rest: %.2g times what Packing/Quiet%s allows",
+      stage.name.c_str(), s.unrest[s.index], stage.unbalanced > 0 ? " or Unbalanced force" : "");
+  progress.note(text);
 }
 
 void advance(Run& run, const Stage& stage) {
@@ -126,7 +149,7 @@ struct Way {
     StageState& s = run.stage;
     const OutputScene& out = run.scene.output;
     const int taken = coupling::steps_per_exchange(run.world);
-    bool over = false;
+    bool over = false, met = false;
     while (!over) {
       advance(run, stage);
       if (stage.control) over = stage.control(run, stage);
@@ -134,7 +157,9 @@ struct Way {
       if (look) look_around(stage);
       if (stage.watch && reached(s, kWatchSteps, taken) && stage.watch(run))
         run.world.materials = make_materials(run.scene, stage.modulus, s.friction);
-      over = record(stage, taken) || over;
+      const bool reached_aim = record(stage, taken);
+      met = met || reached_aim;
+      over = reached_aim || over;
       over = over || (look && at_rest(run, stage)) ||
              run.world.time - s.start > stage.longest - 0.5 * taken * s.dt;
       const bool stop = stop_requested() && !over, due = checkpoint_due();
@@ -154,6 +179,7 @@ struct Way {
       check_ledger(run, stage);
     }
     progress.finish(run.world.time, progress_detail(run));
+    note_unmet(run, stage, met, progress);
     return Ending::done;
   }
 

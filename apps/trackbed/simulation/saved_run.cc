@@ -8,7 +8,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr int kFormat = 7;  // raised when the arrays change
+constexpr int kFormat = 8;  // raised when the arrays change
 
 template <class A>
 void visit(A& a, const std::string& name, bool& flag) {
@@ -41,12 +41,12 @@ void visit(A& a, StageState& s) {
   a("stage/u_min", s.u_min), a("stage/load_min", s.load_min);
   a("stage/u_max", s.u_max), a("stage/load_max", s.load_max);
   a("stage/push_start", s.push_start), a("stage/push", s.push);
-  a("stage/push_force", s.push_force);
+  a("stage/push_force", s.push_force), a("stage/push_stiffness", s.push_stiffness);
   a("stage/largest_overlap", s.largest_overlap);
   a("stage/largest_step_share", s.largest_step_share);
   a("stage/work_in", s.work_in), a("stage/last_work", s.last_work);
   a("stage/worst_closure", s.worst_closure), a("stage/exchange_gain", s.exchange_gain);
-  a("stage/grain_force", s.grain_force);
+  a("stage/unrest", s.unrest), a("stage/grain_force", s.grain_force);
   a("stage/pressure", s.pressure), a("stage/pressure_samples", s.pressure_samples);
 }
 

@@ -48,16 +48,20 @@ struct StageState {
   double load = 0;           ///< on plate or sleeper now [N]
   double pad = 0;            ///< compression of the rail pads now [m]
   double pad_work = 0, pad_loss = 0;  ///< of all pads since the ledger was opened [J]
-  double u0 = 0;             ///< sleeper displacement that counts as zero [m]
+  double u0 = 0;                      ///< sleeper displacement that counts as zero [m]
   double u_min = 0, load_min = 0, u_max = 0, load_max = 0;  ///< last extremes [m], [N]
   double push_start = 0, push = 0;  ///< sleeper along the push: at its start, and since then [m]
   double push_force = 0;            ///< of the actuator [N]
+  double push_stiffness = 0;        ///< of its spring, as the step allows [N/m]
   double largest_overlap = 0;       ///< depth over grain size, so far in the run
   double largest_step_share = 0;    ///< time step over the measured limit, so far in the run
   double work_in = 0;               ///< sum of the rises of the ledger's work [J]
   double last_work = 0;             ///< its last value [J]
   double worst_closure = 0;         ///< largest |closure| since the ledger was opened [J]
   double exchange_gain = 0;         ///< largest energy that the exchange had made since then [J]
+  /// Of each stage that was to come to rest, at its end: kinetic energy or unbalanced force over
+  /// what is allowed, the larger; others 0.
+  std::vector<double> unrest;
   std::vector<double> grain_force;  ///< largest contact force per grain [N]
   std::vector<double> pressure;     ///< under the sleeper, sum over load peaks, by cell [Pa]
   int pressure_samples = 0;
@@ -88,6 +92,7 @@ struct Stage {
   double period = 0;    ///< of the load [s]; 0 = no cycles
   double peak = 0.5;    ///< when in a cycle the load is largest, as a share of the period
   bool until_quiet = false;
+  std::string aim;        ///< what `after_cycle` waits for, in words; empty = nothing
   double unbalanced = 0;  ///< then also the mean unbalanced force is below this share; 0 = any
   bool ledger = false;    ///< opens the energy ledger at its start
   bool gravity = true;

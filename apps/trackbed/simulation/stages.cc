@@ -80,6 +80,7 @@ std::vector<Stage> packing_stages(const Scene& s) {
       const PackingScene& p = run.scene.packing;
       return waveform_load("sine", t, 1 / p.plate_frequency, 0, p.plate_force);
     };
+    if (s.packing.target_density > 0) tamping.aim = "Packing/Target density";
     tamping.after_cycle = [](Run& run) {
       const double target = run.scene.packing.target_density;
       return target > 0 && bed_density(run) >= target;

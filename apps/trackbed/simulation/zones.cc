@@ -6,6 +6,7 @@
 #include "apps/trackbed/grain_estimate.h"
 #include "apps/trackbed/simulation/grains.h"
 #include "apps/trackbed/simulation/materials.h"
+#include "apps/trackbed/simulation/seam.h"
 
 namespace trackbed::apps {
 namespace {
@@ -104,10 +105,12 @@ std::vector<Zone> make_zones(const Scene& s, const Layout& l, bool beside) {
 GrainBatch draw_batch(Run& run, double mass, int stream, bool beside) {
   const Scene& s = run.scene;
   GrainBatch batch;
+  const double period = run.layout.period.y();
   if (run.library.empty()) run.library = make_grain_library(s, run.library_progress);
   if (!s.zones.use) {
     batch.grains = draw_grains(s, run.library, mass, stream);
     batch.fine = static_cast<int>(batch.grains.size());
+    check_seam(period, batch.grains);
     return batch;
   }
   double area = 0, fine_area = 0;
@@ -128,6 +131,7 @@ GrainBatch draw_batch(Run& run, double mass, int stream, bool beside) {
       draw_grains(outside, run.coarse_library, mass * (1 - fine_area / area), stream);
   assign(others, coarse, batch.zone);
   batch.grains.insert(batch.grains.end(), others.begin(), others.end());
+  check_seam(period, batch.grains);
   return batch;
 }
 
