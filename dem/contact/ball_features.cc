@@ -209,6 +209,7 @@ bool on_face(const PartView& own, const Mat3& R, const CoreFeature& on_own, cons
       if (!(flat > 1e-8)) return false;
       step = along.dot(g) * along - g;
       step = (step - (1 - w) * m.dot(step) / (flat + (1 - w) * slope2) * m) / flat;
+      step -= along.dot(step) * along;  // rounding, 1/flat times as large: x stays in its plane
     }
     const double rise = n.dot(step);
     h = height - offset + rise;

@@ -1,0 +1,350 @@
+// fuzz_dilated SECONDS|--pairs COUNT [--seed N] [--output DIR]: random pairs of dilated polyhedra,
+// a plain one now and then, laid vertex, edge or face on vertex, edge or face, parallel but for
+// 1e-14 to 0.1, shifted by lattice steps or nothing. Each is judged
+//   - by duality: |y - x| - r_a - r_b is convex, so that its slopes at the balls found and the
+//     vertices of both cores bound how much deeper any two balls can be;
+//   - flat faces: the overlap of the prism pair that is largest against CGAL's exact arithmetic,
+//   and
+//     the sum against that of all faces of both;
+//   - by symmetry of the two bodies, and by force and torque as gradients of the energy.
+// An offender is kept as a scene, DIR/*.prm, which `trackbed run` replays. Exit 1 if there is one.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "dem/contact/face_prism.h"
+#include "dem/contact/flat_contact.h"
+#include "dem/packing/packing_file.h"
+#include "motion_scene.h"
+#include "tests/verification/exact_overlap.h"
+
+namespace trackbed::dem::test {
+namespace {
+
+constexpr double kModulus = 1e9;
+constexpr double kDeeper = 1e-11;   // of the cores' size
+constexpr double kVolume = 1e-9;    // relative
+constexpr double kSymmetry = 1e-9;  // of energy and force
+constexpr double kGradient = 1e-3;  // of the force
+
+struct Fault {
+  const char* what = nullptr;
+  double value = 0;
+};
+
+Polyhedron any_core(Random& random) {
+  while (true) {
+    try {
+      switch (random.below(4)) {
+        case 0:
+          return random_hull(random, 4 + static_cast<int>(random.below(16)));
+        case 1:
+          return make_box({.5 + .125 * random.below(8), .5 + .125 * random.below(8), 1});
+        case 2: {  // a prism: faces of many corners
+          std::vector<Vec3> points;
+          const int corners = 3 + static_cast<int>(random.below(9));
+          for (int k = 0; k < corners; ++k)
+            for (const double z : {-.4, .4})
+              points.emplace_back(std::cos(2 * M_PI * k / corners),
+                                  std::sin(2 * M_PI * k / corners), z);
+          return convex_hull(points);
+        }
+        default: {  // needles and flakes with equal and coplanar corners
+          std::vector<Vec3> points;
+          for (int i = 0; i < 9; ++i)
+            points.emplace_back(.25 * (random.below(9) - 4.), .25 * (random.below(9) - 4.),
+                                .25 * (random.below(3) - 1.) / (1 + 7. * random.below(2)));
+          return convex_hull(points);
+        }
+      }
+    } catch (const std::exception&) {
+    }
+  }
+}
+
+// Outward direction at a vertex, an edge or a face of a core.
+Vec3 any_direction(Random& random, const ConvexView& v) {
+  const auto normal = [&v](int f) { return Vec3(v.nx[f], v.ny[f], v.nz[f]); };
+  const int i = static_cast<int>(random.below(v.vertices));
+  const int from = v.neighbor_begin[i], edges = v.neighbor_begin[i + 1] - from;
+  const int k = static_cast<int>(random.below(edges));
+  Vec3 sum = normal(v.left_face[from + k]);
+  const unsigned kind = random.below(3);
+  if (kind == 1) sum += normal(v.left_face[from + (k > 0 ? k : edges) - 1]);
+  if (kind == 2)
+    for (int e = 0; e < edges; ++e) sum += normal(v.left_face[from + e]);
+  return sum.normalized();
+}
+
+double any_tilt(Random& random) {
+  static constexpr double tilts[] = {0, 0, 1e-14, 1e-11, 1e-8, 1e-5, 1e-3, 1e-2, .1};
+  return tilts[random.below(9)];
+}
+
+Scene pair_of(const GrainShape& a, const GrainShape& b, const char* law) {
+  Scene s(kModulus, 0);
+  s.round = make_round_forces(law, false);
+  s.context.gravity.setZero();
+  s.add(a, 1, Vec3::Zero()), s.add(b, 1, Vec3::Zero());
+  return s;
+}
+
+void place(Scene& s, int i, const Vec3& x, const Mat3& R) {
+  s.bodies.x[i] = x, s.bodies.R[i] = R, s.bodies.q[i] = Quat(R).normalized();
+}
+
+double energy(Scene& s) {
+  std::fill(s.pairs.wake.begin(), s.pairs.wake.end(), 0.0);
+  s.prepare();
+  return s.now().normal;
+}
+
+const PartView& part(const Scene& s, int i) {
+  const int shape = s.bodies.shape[i];
+  return s.round.flat_faces ? s.shapes.flat_part(shape, 0) : s.shapes.part(shape, 0);
+}
+
+DeepestBalls balls_of(const Scene& s, int i, int j) {
+  Vec3 axis = s.bodies.x[j] - s.bodies.x[i];
+  return deepest_balls(part(s, i), s.bodies.R[i], part(s, j),
+                       {s.bodies.R[j], s.bodies.x[j] - s.bodies.x[i]}, Vec3::Zero(), axis);
+}
+
+// b on a by chosen features of both, a share of the radii deep.
+void lay(Scene& s, Random& random) {
+  const Mat3 Ra = random.below(3) ? random_rotation(random) : Mat3(Mat3::Identity());
+  const Vec3 out = Ra * any_direction(random, part(s, 0).core),
+             own = any_direction(random, part(s, 1).core);
+  const double spin = random.below(2) ? random.below(8) * M_PI / 4 : random.uniform(0, 6);
+  const Mat3 Rb = rotation(any_tilt(random) * random.direction()) * rotation(spin * out) *
+                  Quat::FromTwoVectors(own, -out).toRotationMatrix();
+  const Vec3 aside = random.below(3) == 0 ? Vec3(Vec3::Zero())
+                     : random.below(2)    ? Vec3(.125 * random.below(9) * out.unitOrthogonal())
+                                          : Vec3(random.uniform(0, .8) * random.direction());
+  const Vec3 across = aside - out.dot(aside) * out;
+  const double depth =
+      (part(s, 0).radius + part(s, 1).radius) * std::pow(10., random.uniform(-5, -.8));
+  place(s, 0, Vec3::Zero(), Ra);
+  double near = 0, far = 8;
+  for (int k = 0; k < 50; ++k) {
+    const double middle = (near + far) / 2;
+    place(s, 1, middle * out + across, Rb);
+    (balls_of(s, 0, 1).overlap > depth ? near : far) = middle;
+  }
+  place(s, 1, far * out + across, Rb);
+}
+
+// How much deeper than those found any two balls may be, at most [m]; or how far the balls
+// themselves are from what they should be.
+double can_be_deeper(const Scene& s, const DeepestBalls& d) {
+  const PartView &a = part(s, 0), &b = part(s, 1);
+  const Vec3 x = s.bodies.R[0].transpose() * d.x,
+             y = s.bodies.R[1].transpose() * (d.y - s.bodies.x[1]), way = d.y - d.x;
+  const double distance = way.norm();
+  const auto slack = [](const PartView& p, const Vec3& at, const Vec3& slope, double r) {
+    const double radius = p.radius + p.crown / 2 * (p.mean_square - at.squaredNorm());
+    double off = std::abs(radius - r), least = 0;
+    for (int f = 0; f < p.core.faces; ++f)
+      off = std::max(off, p.core.nx[f] * at.x() + p.core.ny[f] * at.y() + p.core.nz[f] * at.z() -
+                              p.core.offset[f]);
+    for (int v = 0; v < p.core.vertices; ++v)
+      least = std::min(least, slope.dot(Vec3(p.core.x[v], p.core.y[v], p.core.z[v]) - at));
+    return off - least;
+  };
+  const Vec3 n = way / distance;
+  return slack(a, x, a.crown * x - s.bodies.R[0].transpose() * n, d.ra) +
+         slack(b, y, b.crown * y + s.bodies.R[1].transpose() * n, d.rb) +
+         std::abs(d.ra + d.rb - distance - d.overlap);
+}
+
+// The planes of a prism, or of a plain body, in doubles as the kernel gets them.
+std::vector<Plane> planes_of(const ConvexView& v, const Mat3& R, const Vec3& x) {
+  std::vector<Plane> all;
+  for (int f = 0; f < v.faces; ++f) {
+    const Vec3 n = R * Vec3(v.nx[f], v.ny[f], v.nz[f]);
+    all.emplace_back(n.x(), n.y(), n.z(), -(v.offset[f] + n.dot(x)));
+  }
+  return all;
+}
+
+Fault judge_flats(const Scene& s, const DeepestBalls& d, long& flats) {
+  const PartView &a = part(s, 0), &b = part(s, 1);
+  const Pose own{s.bodies.R[0], Vec3::Zero()}, pose{s.bodies.R[1], s.bodies.x[1]};
+  OverlapWorkspace work;
+  NormalContact c;
+  const double found =
+      flat_contact(a, own.R, b, pose, d, material(kModulus), work, c) ? c.shape.volume : 0;
+  double sum = 0, largest = 0, exact = 0, thickness = 1;
+  const auto each = [](const PartView& p, auto&& visit) {
+    FacePrism prism;
+    if (p.radius == 0) return visit(p.core);
+    for (int f = 0; f < p.core.faces; ++f)
+      for (int k = 0; k < prisms_of(p.core, f); ++k)
+        make_face_prism(p.core, f, k, p.radius, prism), visit(prism.view);
+  };
+  each(a, [&](const ConvexView& u) {
+    each(b, [&](const ConvexView& v) {
+      OverlapMoments m;
+      work.clear();
+      const ContactFrame frame = contact_frame(u, own, v, pose, d.n);
+      if (!overlap(u, own, v, pose, frame, work, m)) return;
+      sum += m.volume;
+      if (m.volume < largest) return;
+      std::vector<Plane> all = planes_of(u, own.R, own.x), more = planes_of(v, pose.R, pose.x);
+      all.insert(all.end(), more.begin(), more.end());
+      const OverlapShape shape = make_shape(m, work);
+      const Exact e = exact_overlap(all, frame.origin + frame.axes * shape.centroid);
+      largest = m.volume, exact = e.volume, thickness = shape.depth;
+    });
+  });
+  // Rounded places of planes make a volume uncertain by a layer.
+  const double unsure = kVolume + 1e-14 * (a.core.radius + b.core.radius) / thickness;
+  if (sum < 1e-15 && found < 1e-15) return {};
+  ++flats;
+  if (!(std::abs(largest - exact) < unsure * exact))
+    return {"largest flat overlap against exact arithmetic", largest / exact - 1};
+  if (!(std::abs(found - sum) < 2 * unsure * sum + 1e-16))
+    return {"flat overlaps against those of all faces", found / sum - 1};
+  return {};
+}
+
+// Force and torque on body 1 along axis k against the one-sided differences of the energy, which
+// differ where walls of both bodies coincide.
+Fault judge_gradient(Scene& s, double step) {
+  const double stored = energy(s);
+  if (!(s.pairs.size() == 1 && s.pairs.touching[0])) return {"no contact", 0};
+  const Vec3 force = s.bodies.force[1], torque = s.bodies.torque[1], x = s.bodies.x[1];
+  const Mat3 R = s.bodies.R[1];
+  const double size = part(s, 1).core.radius;
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 e = step * Vec3::Unit(k % 3);
+    const auto slope = [&](double sign) {
+      if (k < 3)
+        place(s, 1, x + sign * e, R);
+      else
+        place(s, 1, x, rotation(sign / size * e) * R);
+      return sign * (stored - energy(s)) / (k < 3 ? step : step / size);
+    };
+    const double up = slope(1), down = slope(-1), given = k < 3 ? force[k] : torque[k - 3];
+    const double scale = k < 3 ? force.norm() : size * force.norm();
+    const double off =
+        std::max({0., std::min(up, down) - given, given - std::max(up, down)}) / scale;
+    place(s, 1, x, R);
+    if (!(off < kGradient))
+      return {k < 3 ? "force as the energy's gradient" : "torque as the energy's gradient", off};
+  }
+  return {};
+}
+
+Fault judge(Scene& s, const char* law, long& flats, long& deep) {
+  const DeepestBalls d = balls_of(s, 0, 1);
+  const double size = part(s, 0).core.radius + part(s, 1).core.radius;
+  const double radii = part(s, 0).radius + part(s, 1).radius;
+  if ((d.y - d.x).dot(d.n) < 1e-3 * radii) return ++deep, Fault{};  // the cores touch
+  const double deeper = can_be_deeper(s, d);
+  if (!(deeper < kDeeper * size)) return {"other balls may be deeper", deeper / size};
+  if (s.round.flat_faces)
+    if (const Fault f = judge_flats(s, d, flats); f.what) return f;
+  const double stored = energy(s);
+  const Vec3 force = s.bodies.force[1],
+             moment = s.bodies.torque[0] + s.bodies.torque[1] + s.bodies.x[1].cross(force);
+  const double rest = std::max((s.bodies.force[0] + force).norm(), moment.norm() / size);
+  if (!(rest < kSymmetry * force.norm())) return {"forces of the two bodies", rest / force.norm()};
+  Scene t = pair_of(s.shapes.shape(s.bodies.shape[1]), s.shapes.shape(s.bodies.shape[0]), law);
+  place(t, 0, s.bodies.x[1], s.bodies.R[1]), place(t, 1, s.bodies.x[0], s.bodies.R[0]);
+  const double other = energy(t), unsure = kSymmetry + 1e-13 * size / d.overlap;
+  if (!(std::abs(other - stored) < unsure * stored))
+    return {"energy with the bodies exchanged", other / stored - 1};
+  return judge_gradient(s, 1e-4 * d.overlap);
+}
+
+void keep(const Scene& s, const char* law, const std::string& stem) {
+  namespace fs = std::filesystem;
+  PackedGrains pair;
+  for (int i = 0; i < 2; ++i) {
+    GrainShape shape = s.shapes.shape(s.bodies.shape[i]);
+    if (!(shape.sieve_size > 0)) shape.sieve_size = std::cbrt(shape.volume);
+    pair.add(shape, s.bodies.x[i], s.bodies.q[i]);
+  }
+  const DistinctShapes shapes = distinct_shapes(pair);
+  fs::create_directories(stem + "_shapes");
+  for (std::size_t k = 0; k < shapes.first_of.size(); ++k) {
+    const ShapeFile file = shape_file(pair.shape[shapes.first_of[k]]);
+    std::ofstream(stem + "_shapes/" + std::to_string(k) + file.ending) << file.text;
+  }
+  std::ofstream(stem + ".csv") << packing_csv_text(pair, shapes.shape_of);
+  std::ofstream(stem + ".prm") << "subsection Contact\n  set Round law = " << law
+                               << "\n  set Contact modulus = " << kModulus
+                               << "\nend\nsubsection Replay\n  set Bodies = "
+                               << fs::path(stem).filename().string() << ".csv\nend\n";
+}
+
+int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folder) {
+  Random random(seed);
+  const auto begun = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  };
+  const auto dilated = [&] {
+    return as_grain(make_dilated_shape({any_core(random), random.uniform(.03, .3)}));
+  };
+  long pairs = 0, flats = 0, deep = 0;
+  int offenders = 0;
+  for (; pairs < most && elapsed() < seconds && offenders < 20; ++pairs) {
+    const char* law = random.below(3) ? "hertz_flat" : "hertz_mindlin";
+    const GrainShape a = dilated();
+    const GrainShape b = random.below(5) == 0   ? make_grain_shape(any_core(random))
+                         : random.below(8) == 0 ? a
+                                                : dilated();
+    Scene s = pair_of(a, b, law);
+    lay(s, random);
+    const Vec3 x = s.bodies.x[1];
+    const Fault fault = judge(s, law, flats, deep);
+    if (!fault.what) continue;
+    ++offenders;
+    s.bodies.x[1] = x;
+    const std::string stem =
+        folder + "/seed_" + std::to_string(seed) + "_pair_" + std::to_string(pairs);
+    keep(s, law, stem);
+    std::printf("%s, %s: off by %.3g, kept as %s.prm\n", law, fault.what, fault.value,
+                stem.c_str());
+  }
+  std::printf(
+      "seed %llu: %ld pairs, %ld with flat parts, %ld with cores that touch, %d offenders, "
+      "%.0f s\n",
+      static_cast<unsigned long long>(seed), pairs, flats, deep, offenders, elapsed());
+  return offenders > 0;
+}
+
+}  // namespace
+}  // namespace trackbed::dem::test
+
+int main(int argc, char** argv) {
+  double seconds = 0;
+  long pairs = 0;
+  std::uint64_t seed = 1;
+  std::string folder = "results/fuzz";
+  for (int k = 1; k < argc; ++k) {
+    if (!std::strcmp(argv[k], "--seed") && k + 1 < argc)
+      seed = std::strtoull(argv[++k], nullptr, 10);
+    else if (!std::strcmp(argv[k], "--output") && k + 1 < argc)
+      folder = argv[++k];
+    else if (!std::strcmp(argv[k], "--pairs") && k + 1 < argc)
+      pairs = std::strtol(argv[++k], nullptr, 10);
+    else
+      seconds = std::strtod(argv[k], nullptr);
+  }
+  if (!(seconds > 0) && !(pairs > 0)) {
+    std::fprintf(stderr,
+                 "fuzz_dilated SECONDS|--pairs COUNT [--seed N] [--output DIR]: how long?\n");
+    return 2;
+  }
+  if (!(seconds > 0)) seconds = HUGE_VAL;
+  if (!(pairs > 0)) pairs = std::numeric_limits<long>::max();
+  return trackbed::dem::test::fuzz(seconds, pairs, seed, folder);
+}
