@@ -243,6 +243,7 @@ Fault judge_gradient(Scene& s, double step) {
 
 Fault judge(Scene& s, const char* law, long& flats, long& deep) {
   const DeepestBalls d = balls_of(s, 0, 1);
+  if (!(d.overlap > 0)) return {};  // laid beside each other
   const double size = part(s, 0).core.radius + part(s, 1).core.radius;
   const double radii = part(s, 0).radius + part(s, 1).radius;
   if ((d.y - d.x).dot(d.n) < 1e-3 * radii) return ++deep, Fault{};  // the cores touch
