@@ -1,7 +1,10 @@
 // The energy ledger of a run: where every joule of the loads' work went. Stored energies are
 // functions of the state, computed afresh; work and dissipation are sums over the steps. So
 //   closure = (stored now - stored at start) - work + dissipated + transfer error
-// is a true test of the run: it is zero only if contacts, motion and structures conserve energy.
+// is a true test of grains, contacts and the exchange: it is zero only if these conserve energy.
+// What a structure's time integration takes out is what its own books lack, so that this sum cannot
+// show it: structure_numerical is looked at for itself, as transfer_error is. Below zero they made
+// energy.
 #pragma once
 
 namespace trackbed::coupling {

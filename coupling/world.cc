@@ -75,8 +75,12 @@ int count_contacts(const World& w) {
 double coordination(const World& w) {
   const int grains = w.bodies.grains;
   long ends = 0;
-  for (int p = 0; p < w.pairs.size(); ++p)
-    if (w.pairs.touching[p]) ends += (w.pairs.a[p] < grains) + (w.pairs.b[p] < grains);
+  int a = -1, b = -1;  // two that touch with several of their parts, which follow each other, once
+  for (int p = 0; p < w.pairs.size(); ++p) {
+    if (!w.pairs.touching[p] || (w.pairs.a[p] == a && w.pairs.b[p] == b)) continue;
+    a = w.pairs.a[p], b = w.pairs.b[p];
+    ends += (a < grains) + (b < grains);
+  }
   for (const Surface& s : w.surfaces) ends += dem::count_contacts(s.contacts);
   return grains ? static_cast<double>(ends) / grains : 0;
 }

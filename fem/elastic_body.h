@@ -5,8 +5,8 @@
 // in time by generalised-α (Chung, Hulbert 1993): spectral radius ρ_∞ at high frequency,
 //   α_m = (2ρ_∞−1)/(ρ_∞+1), α_f = ρ_∞/(ρ_∞+1), γ = ½−α_m+α_f, β = ¼(1−α_m+α_f)²
 // or Newmark's average acceleration (β ¼, γ ½); a body with lumped mass and no damping goes by
-// velocity Verlet, without a solve, where Δt ≤ 0.9·2/ω_max (METHODS F: explicit where the limit
-// allows). SI units, z up, positions relative to the scene's origin.
+// velocity Verlet, without a solve, where Δt ≤ 0.9·2/ω_max. SI units, z up,
+// positions relative to the scene's origin.
 #pragma once
 #include <limits>
 #include <map>

@@ -1,11 +1,10 @@
 // What every structure with a contact surface gives to the coupling: nodal forces in, nodal motion
-// out. ElasticBody (3-D elements), WinklerBed, ... are structures; the coupling knows this file
-// only.
+// out. ElasticBody (3-D elements), PointBed, ModalStructure, ... are structures; the coupling knows
+// this file only.
 //
 // One step, once set_step(dt) was called:
-//   predict(u, v)        where the surface will be at t+dt, for the contact forces  (no change of
-//   state) advance(forces)      the forces found there, at t+dt, one per surface node; the state
-//   becomes t+dt
+//   predict(u, v)    where the surface will be at t+dt, for the contact forces; changes no state
+//   advance(forces)  the forces found there, at t+dt, one per surface node; the state becomes t+dt
 // The same forces act on the grains: action equals reaction to the last bit.
 #pragma once
 #include <algorithm>
@@ -71,8 +70,7 @@ class Structure {
   /// Largest step [s] that goes without a solve, the surface just where predict() says; 0: none.
   virtual double explicit_limit() const { return 0; }
 
-  /// Surface nodes at t+dt: u + dt v + ½ dt² a [m] and v + dt a [m/s] (METHODS F). Vectors are
-  /// resized.
+  /// Surface nodes at t+dt: u + dt v + ½ dt² a [m] and v + dt a [m/s]. Vectors are resized.
   virtual void predict(std::vector<Vec>& displacement, std::vector<Vec>& velocity) const = 0;
 
   /// One step with these forces [N] on the surface nodes at t+dt (forces on a node and on its

@@ -169,7 +169,8 @@ void Stepper::advance_implicitly(Motion& s, const std::vector<double>& force) {
     multiply(matrices_.pattern, matrices_.damping, c_, next_);
     for (std::size_t i = 0; i < n; ++i) rhs_[i] -= next_[i];
   }
-  solver_->solve(rhs_, next_);  // from the last acceleration, if it iterates
+  next_ = s.a;  // where it starts, if it iterates: after a resume too
+  solver_->solve(rhs_, next_);
   for (std::size_t i = 0; i < n; ++i) {
     s.u[i] += dt * (s.v[i] + dt * ((0.5 - beta) * s.a[i] + beta * next_[i]));
     s.v[i] += dt * ((1 - gamma) * s.a[i] + gamma * next_[i]);

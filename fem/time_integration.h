@@ -9,8 +9,9 @@
 //     v½ = v + ½Δt a,  u₊ = u + Δt v½,  a₊ = M⁻¹(f₊ − C v½ − K u₊),  v₊ = v½ + ½Δt a₊
 //     stable for Δt ≤ 2/ω (√(1+ξ²) − ξ)
 //   Zhai 1996 (Int. J. Numer. Meth. Eng. 39:4199), φ = ψ = ½:
-//     u₊ = u + Δt v + (½+ψ)Δt² a − ψΔt² a₋,  v₊ = v + (1+φ)Δt a − φΔt a₋,  a₊ = M⁻¹(f₊ − C v₊ − K
-//     u₊) stable for ωΔt ≤ 2 √(1+4ξ²) − 4ξ (from the root −1 of its characteristic polynomial)
+//     u₊ = u + Δt v + (½+ψ)Δt² a − ψΔt² a₋,  v₊ = v + (1+φ)Δt a − φΔt a₋,
+//     a₊ = M⁻¹(f₊ − C v₊ − K u₊)
+//     stable for ωΔt ≤ 2 √(1+4ξ²) − 4ξ (from the root −1 of its characteristic polynomial)
 // Quasi-static: K u₊ = f₊, v₊ = (u₊ − u)/Δt, a = 0.
 #pragma once
 #include <cmath>

@@ -72,9 +72,9 @@ int compare_command(const CompareOptions& o) {
     progress.note("run " + std::to_string(k + 1) + " of " + std::to_string(list.size()) + ": " +
                   list[k].folder);
     if (simulate(scenes[k], {folder, o.threads, goes_on, false}, progress) == Ending::stopped) {
-      std::fprintf(stderr,
-                   "trackbed: stopped; go on with: trackbed compare %s --output %s --resume\n",
-                   o.scene.c_str(), path.c_str());
+      std::string resume = resume_command("compare", o.scene, path, o.set);
+      if (o.packings > 1) resume += " --packings " + std::to_string(o.packings);
+      std::fprintf(stderr, "trackbed: stopped; go on with: %s\n", resume.c_str());
       return 128 + stop_signal();
     }
   }

@@ -9,16 +9,6 @@
 #include "base/error.h"
 
 namespace trackbed::apps {
-namespace {
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-}  // namespace
-
 double LoadTable::at(double t) const {
   t -= std::floor(t / period()) * period();
   const auto after = std::upper_bound(time.begin(), time.end(), t);

@@ -26,20 +26,59 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// What a run, a packing, a comparison or a report writes (DESIGN: output of a run).
-bool written_by_a_run(const std::string& name) {
-  for (const char* file :
-       {"cycles.csv",      "compaction.csv",  "history.csv",       "energy.csv",
-        "gradation.csv",   "grains.csv",      "timing.csv",        "scene.resolved.prm",
-        "snapshots.h5",    "snapshots.xdmf",  "checkpoint.h5",     "report.html",
-        "compare.csv",     "compare.html",    "summary.csv",       "cost.csv",
-        "cost.html",       "runs.csv",        "knobs.csv",         "tolerance.csv",
-        "recommended.prm", "recommended.txt", "porosity.csv",      "sections.csv",
-        "library.csv",     "classes.csv",     "friction_path.csv", "zones.csv",
-        "packing.off",     "packing.vtu",     "packing.csv"})
-    if (name == file || name == file + std::string(".part")) return true;
-  return starts_with(name, "structure_") || starts_with(name, "path_") ||
-         starts_with(name, "snapshots") || ends_with(name, ".png");
+bool is_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// "stem0012.vtu" with the stem and the ending.
+bool is_numbered(const std::string& name, const std::string& stem, const std::string& end) {
+  return starts_with(name, stem) && ends_with(name, end) &&
+         name.size() > stem.size() + end.size() &&
+         is_number(name.substr(stem.size(), name.size() - stem.size() - end.size()));
+}
+
+// What a run, a packing, a comparison, a cost study or a report writes; tests hold a whole run and
+// its report against this list.
+bool written_by_a_run(std::string name) {
+  if (ends_with(name, ".part")) name.resize(name.size() - 5);  // of a run that was cut off
+  for (const char* file : {"cycles.csv",     "compaction.csv",
+                           "history.csv",    "energy.csv",
+                           "gradation.csv",  "grains.csv",
+                           "timing.csv",     "summary.csv",
+                           "effects.csv",    "library.csv",
+                           "classes.csv",    "porosity.csv",
+                           "sections.csv",   "friction_path.csv",
+                           "zones.csv",      "pressure.csv",
+                           "moment.csv",     "rail_seats.csv",
+                           "push.csv",       "subgrade_pressure.csv",
+                           "strength.csv",   "subgrade_pressure_profile.csv",
+                           "triaxial.csv",   "direct_shear.csv",
+                           "repose.csv",     "scene.resolved.prm",
+                           "checkpoint.h5",  "test_bed.h5",
+                           "snapshots.h5",   "snapshots.xdmf",
+                           "packing.off",    "packing.vtu",
+                           "packing.csv",    "offender.prm",
+                           "offender.csv",   "report.html",
+                           "compare.csv",    "compare.html",
+                           "runs.csv",       "cost.csv",
+                           "cost.html",      "knobs.csv",
+                           "tolerance.csv",  "recommended.prm",
+                           "recommended.txt"})
+    if (name == file) return true;
+  for (const char* picture :
+       {"bed",      "chains",        "compaction", "direct_shear", "energy",
+        "forces",   "friction_path", "gradation",  "history",      "loops",
+        "mohr",     "moment",        "porosity",   "pressure",     "repose",
+        "sections", "settlement",    "stiffness",  "structures",   "subgrade_pressure",
+        "timing",   "triaxial"})
+    if (name == std::string(picture) + ".png") return true;
+  for (const char* stem : {"compare_", "cost_"})
+    if (starts_with(name, stem) && ends_with(name, ".png")) return true;
+  for (const char* structure : {"structure_sleeper", "structure_subgrade"})
+    if (name == std::string(structure) + ".pvd" || name == std::string(structure) + ".vtu" ||
+        is_numbered(name, std::string(structure) + "_", ".vtu"))
+      return true;
+  return is_numbered(name, "path_", ".h5");
 }
 
 }  // namespace
@@ -89,6 +128,13 @@ OutputFolder::~OutputFolder() {
   std::error_code ignored;
   fs::remove(file(lock_name), ignored);
   ::close(lock_);
+}
+
+std::string resume_command(const std::string& command, const std::string& scene,
+                           const std::string& folder, const std::vector<std::string>& set) {
+  std::string text = "trackbed " + command + " " + scene + " --output " + folder + " --resume";
+  for (const std::string& change : set) text += " --set '" + change + "'";
+  return text;
 }
 
 EarlierRun earlier_run(bool resume, bool overwrite) {

@@ -1,6 +1,7 @@
 // The folder a run writes to: made, locked against a second run, and never taken over silently.
 #pragma once
 #include <string>
+#include <vector>
 
 namespace trackbed::apps {
 
@@ -13,7 +14,7 @@ class OutputFolder {
   /// been read and checked, before anything is computed. Throws InputError:
   /// - it cannot be made or written to, or another run is writing to it;
   /// - refuse: it holds a run; resume: it holds no checkpoint.
-  /// overwrite removes what an earlier run wrote and nothing else.
+  /// overwrite removes files of the names that an earlier run may have written, no others.
   OutputFolder(const std::string& folder, EarlierRun mode);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -29,6 +30,10 @@ class OutputFolder {
   std::string path_;
   int lock_ = -1;
 };
+
+/// What to type to go on with a run that was stopped: the command and all that its scene needs.
+std::string resume_command(const std::string& command, const std::string& scene,
+                           const std::string& folder, const std::vector<std::string>& set);
 
 /// The mode that --resume and --overwrite ask for; both together throw InputError.
 EarlierRun earlier_run(bool resume, bool overwrite);

@@ -55,6 +55,12 @@ std::string allowed_text(const Parameter& p) {
   return text;
 }
 
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
 bool parse_number(const std::string& text, double& value) {
   if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string::npos) return false;
   std::size_t used = 0;

@@ -21,6 +21,9 @@ std::string join_names(const std::vector<std::string>& names);
 /// "is not a number" or "is out of range".
 std::string fault_of(const Parameter&, const std::string& value);
 
+/// Without the white space at its ends.
+std::string trimmed(const std::string& text);
+
 /// The whole of `text` as a finite number; false if it is not one.
 bool parse_number(const std::string& text, double& value);
 

@@ -103,7 +103,8 @@ void add_grains(Section s) {
          "files: folder of OFF, OBJ or STL files of stones, from the scene's file; they make the "
          "library, their size does not matter");
   s.boolean("Hulls of stones", "false", "files: take the convex hull of stones that are dented");
-  s.number("Largest scale", "1.2", "-", 0.05, 10, "jin_hull: largest factor of it, S_u");
+  s.number("Largest scale", "1.2", "-", 0.05, 10,
+           "jin_hull: largest factor of a node's radius, S_u");
   s.integer("Seed", "1", 0, 9.2e18, "of every random choice: the same seed gives the same packing");
   s.number("Density", "2600", "kg/m3", 1, 2e4, "of the rock (Shao 2017, Table 3)");
   s.number("Friction", "0.67", "-", 0, 10, "coefficient, grain on grain (Shao 2017, Table 3)");
@@ -166,17 +167,19 @@ void add_contact(Section s) {
            "share of the unbalanced force that opposes motion while loading; 0 = off");
   s.choice(
       "Damping", "local", {"local", "adaptive", "none"},
-      "of the grains' motion: local, by the two keys below; adaptive, global with Shao's alpha "
-      "(Shao 2017, Eq. 27), in their place");
+      "of the grains' motion: local, by Local damping and Packing damping; adaptive, global with "
+      "Shao's alpha (Shao 2017, Eq. 27), in their place");
   s.number("Torsional friction", "0", "-", 0, 10,
            "share of mu F_n times the contact's mean radius that resists turning about the normal, "
            "1 = Coulomb's; grains and rigid bodies; 0 = off");
   s.number("Rolling resistance", "0", "-", 0, 10,
            "coefficient mu_r of an elastic-plastic rolling spring (Ai 2011, model C); grains and "
            "rigid bodies; 0 = off");
-  s.number("Packing damping", "0.4", "-", 0, 0.95, "the same while packing");
-  s.number("Largest overlap", "0.2", "-", 1e-6, 0.5,
-           "depth over the grain's sieve size at which a run stops");
+  s.number("Packing damping", "0.4", "-", 0, 0.95, "as Local damping, while packing");
+  s.number(
+      "Largest overlap", "0.2", "-", 1e-6, 0.5,
+      "share of the smaller grain's size, the cube root of its volume, at which a contact's depth "
+      "stops the run");
 }
 
 void add_packing_method(Section s) {

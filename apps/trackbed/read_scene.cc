@@ -321,6 +321,8 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   check_packing(scene, values);
   check_structures(scene, values);
   decide_inertia(scene, values);
+  for (const std::string& decision : scene.decisions)
+    scene.resolved += "# automatic: " + decision + "\n";
   return scene;
 }
 

@@ -24,6 +24,7 @@ int run_command(const RunOptions& o) {
     ~Release() { fem::release_ranks(); }
   } release;
   const std::string path = o.output.empty() ? "results/" + scene.name : o.output;
+  const std::string resume = resume_command("run", o.scene, path, o.set);
   OutputFolder folder(path, earlier_run(o.resume, o.overwrite));
   catch_stop_signals();
   Progress progress;
@@ -34,12 +35,10 @@ int run_command(const RunOptions& o) {
     const std::string checkpoint = folder.file("checkpoint.h5");
     if (!std::filesystem::exists(checkpoint)) throw;
     throw RunError(std::string(e.what()) + " The state before it is in " + checkpoint +
-                   "; to go on from there: trackbed run " + o.scene + " --output " + path +
-                   " --resume" + (o.set.empty() ? "" : " and the same --set options"));
+                   "; to go on from there: " + resume);
   }
   if (ending == Ending::stopped) {
-    std::fprintf(stderr, "trackbed: stopped; go on with: trackbed run %s --output %s --resume\n",
-                 o.scene.c_str(), path.c_str());
+    std::fprintf(stderr, "trackbed: stopped; go on with: %s\n", resume.c_str());
     return 128 + stop_signal();
   }
   std::printf("results in %s; trackbed report %s draws them\n", path.c_str(), path.c_str());

@@ -215,7 +215,7 @@ struct Scene {
   std::string file;
   std::map<std::string, std::string> values;  ///< every parameter as used: "Section/Key" to text
   std::vector<std::string> decisions;         ///< what `auto` came to, and why
-  std::string resolved;                       ///< the same as a parameter file (scene.resolved.prm)
+  std::string resolved;  ///< values and decisions as a parameter file (scene.resolved.prm)
   ContainerScene container;
   GrainScene grains;
   GradationScene gradation;

@@ -5,17 +5,12 @@
 
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/json_text.h"
+#include "apps/trackbed/parameter_text.h"
 #include "base/error.h"
 #include "dem/grain/nearest_name.h"
 
 namespace trackbed::apps {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
 
 /// The first word in lower case if it is one of the file's commands, and what follows it.
 std::string take_word(const std::string& line, std::string& rest) {

@@ -19,9 +19,6 @@
 
 namespace trackbed::dem {
 
-/// 4/(3 sqrt(pi)) of Shao 2017 Eq. 17.
-inline constexpr double kShaoFactor = 0.75225277806367504925;
-
 /// k_t [N/m] of a contact with vector area of size `area` [m2].
 inline double tangential_stiffness(const PairMaterial& m, double area) {
   return m.tangential_ratio * kShaoFactor * m.modulus * std::sqrt(area);

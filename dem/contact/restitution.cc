@@ -18,6 +18,13 @@ struct Impact {
   }
 };
 
+// Whether a law's force goes with overlap^(3/2), linearly otherwise.
+bool is_hertz(const std::string& law) {
+  if (law == "hertz_mindlin" || law == "hertz_flat") return true;
+  if (law == "linear") return false;
+  throw InputError("round law '" + law + "': its restitution is not known here");
+}
+
 }  // namespace
 
 double restitution(bool hertz, double alpha) {
@@ -59,7 +66,7 @@ double damping_for_restitution(const std::string& law, double e) {
     throw InputError("restitution " + std::to_string(e) + " is out of range: 0.01 to 1");
   if (e == 1) return 0;
   if (law == "sun2015") return tsuji_damping(e);
-  const bool hertz = law == "hertz_mindlin" || law == "hertz_flat";
+  const bool hertz = is_hertz(law);
   double low = 0, high = 1;
   while (restitution(hertz, high) > e) high *= 2;
   for (int k = 0; k < 50; ++k) {
@@ -67,6 +74,13 @@ double damping_for_restitution(const std::string& law, double e) {
     (restitution(hertz, middle) > e ? low : high) = middle;
   }
   return (low + high) / 2;
+}
+
+double restitution_for_damping(const std::string& law, double alpha) {
+  if (alpha == 0) return 1;
+  if (law != "sun2015") return restitution(is_hertz(law), alpha);
+  const double share = alpha / std::sqrt(5.0);
+  return std::exp(-M_PI * share / std::sqrt(1 - share * share));
 }
 
 }  // namespace trackbed::dem

@@ -10,8 +10,11 @@ double restitution(bool hertz, double alpha);
 
 /// alpha of a law (by name) for a coefficient of restitution: hertz_mindlin, hertz_flat and linear
 /// by inverting restitution(), sun2015 by tsuji_damping. 1 gives 0. Throws InputError unless 0.01
-/// <= e <= 1.
+/// <= e <= 1, and for a law that is not among these.
 double damping_for_restitution(const std::string& law, double e);
+
+/// Its inverse: the coefficient of restitution that a law's alpha gives.
+double restitution_for_damping(const std::string& law, double alpha);
 
 /// -sqrt(5) ln e/sqrt(ln^2 e + pi^2): Hertz with a force that may pull.
 double tsuji_damping(double e);

@@ -1,4 +1,5 @@
-// The laws of round contacts by name. A new law is one header in laws/ and one word here.
+// The laws of round contacts by name. A new law is one header in laws/ and one word here, its
+// damping (restitution.cc) and its instance on surfaces (surface/round_patch.cc).
 #include <tuple>
 
 #include "base/error.h"

@@ -10,6 +10,8 @@ namespace trackbed::dem {
 /// largest diameter > 1.8 of it.
 enum class GrainForm { ordinary, needle, flaky, needle_and_flaky };
 
+/// Of what is not a polyhedron, width and diameter are those of the polyhedron around it
+/// (GrainShape::body), a little too large.
 /// Throws InputError when a shape is not sized. In parallel.
 std::vector<GrainForm> grain_forms(const std::vector<GrainShape>&);
 

@@ -46,10 +46,11 @@ std::vector<Polyhedron> generate(const LibraryParameters& p) {
   throw InputError(unknown_name("grain generator", p.generator, generator_names()));
 }
 
-// Runs over 0 … n-1 on all threads; tells progress; the first failure is thrown at the end.
+// Runs over 0 … n-1 on all threads; tells progress; the failure of least i is thrown at the end.
 void in_parallel(int n, const std::function<void(double)>& progress,
                  const std::function<void(int)>& work) {
   std::exception_ptr failure;
+  int failed = n;
   int done = 0;
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < n; ++i) {
@@ -57,7 +58,7 @@ void in_parallel(int n, const std::function<void(double)>& progress,
       work(i);
     } catch (...) {
 #pragma omp critical(library_failure)
-      failure = std::current_exception();
+      if (i < failed) failed = i, failure = std::current_exception();
     }
     if (progress) {
 #pragma omp critical(library_progress)

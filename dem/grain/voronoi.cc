@@ -181,13 +181,14 @@ std::vector<Polyhedron> voronoi_grains(const VoronoiParameters& p) {
   const PeriodicGrid grid = seed_points(p);
   std::vector<Polyhedron> grains(p.count);
   std::exception_ptr failure;
+  int failed = p.count;
 #pragma omp parallel for schedule(dynamic, 16)
   for (int i = 0; i < p.count; ++i) {
     try {
       grains[i] = without_small_faces(cell(grid, grid.points()[i]), p.least_face);
     } catch (...) {
 #pragma omp critical
-      failure = std::current_exception();
+      if (i < failed) failed = i, failure = std::current_exception();
     }
   }
   if (failure) std::rethrow_exception(failure);

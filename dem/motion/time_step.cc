@@ -102,10 +102,6 @@ TimeStepLimit limit_of(int body, double omega2, int contacts) {
   return {omega2 > 0 ? 2 / std::sqrt(omega2) : HUGE_VAL, body, std::sqrt(omega2), contacts};
 }
 
-}  // namespace
-
-namespace {
-
 /// k and tilt stiffness of the stiffest contact to expect of a shape, per unit modulus.
 struct ExpectedStiffness {
   double normal = 0;  // [m]
@@ -125,12 +121,17 @@ ExpectedStiffness expected_stiffness(const GrainShape& shape, const ContactExpec
     const double overlap = expect.overlap * shape.radius;
     k.normal = std::max(k.normal, 2 * std::sqrt(part.radius * overlap));
     if (expect.flat_faces && !part.core.faces.empty())
-      k.normal = std::max(
-          k.normal, kShaoFactor * std::sqrt(expect.area_share * largest_face(part.core)));
+      k.normal =
+          std::max(k.normal, kShaoFactor * std::sqrt(expect.area_share * largest_face(part.core)));
     if (part.crown > 0)
       k.tilt = std::max(k.tilt, 4. / 3 * std::sqrt(part.radius * overlap) * overlap / part.crown);
   }
   return k;
+}
+
+// k of a shape's stiffest contact between two materials [N/m].
+double normal_stiffness(const PairMaterial& pair, const ExpectedStiffness& expected, bool round) {
+  return round && pair.stiffness > 0 ? pair.stiffness : pair.modulus * expected.normal;
 }
 
 }  // namespace
@@ -154,8 +155,7 @@ TimeStepLimit expected_limit(const Bodies& b, const ShapeTable& shapes, const Pa
           round ? std::max(pair.round_ratio, pair.tangential_ratio) : pair.tangential_ratio;
       if (!(pair.friction > 0)) ratio = 0;
       if (!(pair.modulus > 0)) continue;
-      const double k =
-          round && pair.stiffness > 0 ? pair.stiffness : pair.modulus * expected.normal;
+      const double k = normal_stiffness(pair, expected, round);
       stiffest = std::max(stiffest, k * (1 + 2 * ratio) / 3);
       tilt = std::max(tilt, pair.modulus * expected.tilt);
     }
@@ -176,19 +176,23 @@ double rule_of_thumb(const std::string& rule, const Bodies& b, const ShapeTable&
   double dt = HUGE_VAL, lightest = HUGE_VAL;
   for (int i = 0; i < b.grains; ++i) {
     if (b.freedom[i] == kFixed) continue;
-    double modulus = 0;
-    for (int j = 0; j < m.materials(); ++j)
-      if (m(b.material[i], j).modulus > modulus) modulus = m(b.material[i], j).modulus;
     const GrainShape& shape = shapes.shape(b.shape[i]);
+    const bool round = !shape.parts.empty();
+    double modulus = 0, k = 0;
+    const ExpectedStiffness expected = expected_stiffness(shape, expect);
+    for (int j = 0; j < m.materials(); ++j) {
+      const PairMaterial& pair = m(b.material[i], j);
+      modulus = std::max(modulus, pair.modulus);
+      if (pair.modulus > 0) k = std::max(k, normal_stiffness(pair, expected, round));
+    }
     if (rule == "rayleigh") {
       constexpr double nu = 0.3;
       const double r = std::cbrt(0.75 * shape.volume / M_PI), rho = b.mass[i] / shape.volume;
-      const double shear = modulus / (2 * (1 + nu));
+      const double young = round ? 2 * (1 - nu * nu) * modulus : modulus;
+      const double shear = young / (2 * (1 + nu));
       dt = std::min(dt, M_PI * r * std::sqrt(rho / shear) / (0.1631 * nu + 0.8766));
     } else if (b.mass[i] < lightest) {
       lightest = b.mass[i];
-      const double k =
-          kShaoFactor * modulus * std::sqrt(expect.area_share * largest_face(shape.body));
       dt = 2 * M_PI * std::sqrt(lightest / k) / 40;
     }
   }

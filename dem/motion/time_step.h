@@ -41,13 +41,12 @@ TimeStepLimit expected_limit(const Bodies&, const ShapeTable&, const PairMateria
                              const ContactExpectation&);
 
 /// Rules of the field, by name; none is a limit: compare with one.
-///   sun2015   T_min/40, T_min = 2 pi sqrt(m/k) of the lightest grain (Sun et al. 2015, Eq. 12), k
-///   of
-///             its own as in expected_limit
-///   rayleigh  the time a Rayleigh wave takes over the smallest grain, pi r sqrt(rho/G)/(0.1631 nu
-///   +
-///             0.8766), r of the sphere of its volume, nu 0.3, G = E/(2(1+nu)) of the contact
-///             modulus
+/// sun2015: T_min/40, T_min = 2 pi sqrt(m/k) of the lightest grain (Sun et al. 2015, Eq. 12), k as
+/// in expected_limit.
+/// rayleigh: the time a Rayleigh wave takes over the smallest grain,
+///   pi r sqrt(rho/G)/(0.1631 nu + 0.8766),
+/// r of the sphere of its volume, nu = 0.3, G = E/(2(1+nu)); E is the contact modulus, that of
+/// round contacts taken as E* of two alike, E/(2(1-nu^2)).
 /// Throws InputError naming the rules for any other name.
 double rule_of_thumb(const std::string& rule, const Bodies&, const ShapeTable&,
                      const PairMaterials&, const ContactExpectation& = {});

@@ -84,9 +84,11 @@ std::vector<PlacedGrain> placed_grains(const Bodies& b, const ShapeTable& shapes
 
 std::vector<std::pair<int, int>> grain_contacts(const Pairs& pairs, int grains) {
   std::vector<std::pair<int, int>> contacts;
-  for (int p = 0; p < pairs.size(); ++p)
-    if (pairs.touching[p] && pairs.a[p] < grains && pairs.b[p] < grains)
-      contacts.emplace_back(pairs.a[p], pairs.b[p]);
+  for (int p = 0; p < pairs.size(); ++p) {
+    const std::pair<int, int> pair{pairs.a[p], pairs.b[p]};
+    if (!pairs.touching[p] || pair.first >= grains || pair.second >= grains) continue;
+    if (contacts.empty() || contacts.back() != pair) contacts.push_back(pair);
+  }
   return contacts;
 }
 

@@ -31,7 +31,8 @@ struct PlacedGrain {
 /// The grains among the bodies (not walls, plates, sleepers).
 std::vector<PlacedGrain> placed_grains(const Bodies&, const ShapeTable&);
 
-/// Touching pairs of grains.
+/// Touching pairs of grains: two that touch with several of their parts, which follow each other,
+/// are one.
 std::vector<std::pair<int, int>> grain_contacts(const Pairs&, int grains);
 
 struct RegionMeasure {

@@ -1,6 +1,7 @@
 #include "fem/subgrades/registry.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "fem/distributed_body.h"
@@ -38,7 +39,8 @@ const std::map<std::string, SubgradeModel>& subgrade_models() { return models();
 
 RegisterSubgrade::RegisterSubgrade(SubgradeModel model) {
   const std::string name = model.name;
-  models().emplace(name, std::move(model));
+  if (!models().emplace(name, std::move(model)).second)
+    throw std::logic_error("two subgrade models are named '" + name + "'");
 }
 
 namespace {
@@ -68,6 +70,10 @@ const SubgradeModel& checked(const std::string& name, Values& values) {
 
 std::unique_ptr<Structure> body_with_history(const SubgradeSite& site, const Values& values,
                                              std::shared_ptr<const StressModel> stress) {
+  if (site.scheme != TimeScheme::automatic)
+    throw InputError(
+        "Numerics/Structure scheme: a material with history is advanced explicitly where the step "
+        "allows it, else implicitly; automatic is allowed");
   if (site.reduction != Reduction::none)
     throw InputError("Subgrade/Reduction: a material with history has no modes; none is allowed");
   if (site.absorbing_sides || site.absorbing_bottom)
@@ -95,7 +101,12 @@ std::shared_ptr<const StressModel> stress_model(const std::string& name, Values 
   return model.stress ? model.stress(values) : nullptr;
 }
 
-double number(const Values& values, const std::string& key) { return std::stod(values.at(key)); }
+double number(const Values& values, const std::string& key) {
+  const auto found = values.find(key);
+  if (found == values.end())
+    throw InputError("Subgrade: the model reads '" + key + "', which is none of its parameters");
+  return std::stod(found->second);
+}
 
 int cells_over(const SubgradeSite& site, double length) {
   return std::max(1, static_cast<int>(std::ceil(length / site.element_size - 1e-9)));
@@ -142,6 +153,11 @@ std::unique_ptr<Structure> make_body(const SubgradeSite& site, ElasticBodyParame
 }
 
 PointBedParameters points_under(const SubgradeSite& site) {
+  if (site.scheme != TimeScheme::automatic && site.scheme != TimeScheme::newmark &&
+      site.scheme != TimeScheme::generalised_alpha)
+    throw InputError(
+        "Numerics/Structure scheme: a bed of points is advanced implicitly; automatic, newmark or "
+        "generalised_alpha are allowed");
   if (site.reduction != Reduction::none)
     throw InputError("Subgrade/Reduction: points of a bed have no modes to share; none is allowed");
   if (site.absorbing_sides || site.absorbing_bottom)
@@ -154,7 +170,7 @@ PointBedParameters points_under(const SubgradeSite& site) {
   p.cells_x = cells_over(site, site.x_high - site.x_low);
   p.cells_y = cells_over(site, site.y_high - site.y_low);
   p.periodic_x = site.periodic_x, p.periodic_y = site.periodic_y;
-  p.newmark = site.newmark;
+  p.newmark = site.newmark || site.scheme == TimeScheme::newmark;
   p.rho_inf = site.rho_inf;
   return p;
 }

@@ -306,15 +306,19 @@ class Structures(SceneTest):
                                - 0.8 * table[0]["time_s"] * 0.02)
 
     def test_load_table(self):
-        (self.folder / "load.csv").write_text("time_s,load_N\n0,20\n0.001,30\n0.003,100\n0.004,20\n")
-        run = self.run_scene("a", change={"Loading/Ramp time": "0.002", "Loading/Waveform": "table",
-                                          "Loading/Table": "load.csv"})
-        self.assert_sound(run)
-        cycles = rows(run / "cycles.csv")
-        self.assertEqual(len(cycles), 2)
-        for row in cycles:
-            self.assertAlmostEqual(float(row["load_max_N"]), 100, delta=2)
-            self.assertAlmostEqual(float(row["load_min_N"]), 20, delta=1e-6)
+        """Its peak is a third of the way, which is no whole number of exchanges of four steps."""
+        (self.folder / "load.csv").write_text("time_s,load_N\n0,20\n0.0015,100\n0.003,50\n0.0045,20\n")
+        for steps in (1, 4):
+            run = self.run_scene(f"a{steps}", change={
+                "Loading/Ramp time": "0.002", "Loading/Waveform": "table", "Loading/Table": "load.csv",
+                "Numerics/Exchange": "predicted" if steps == 1 else "several_steps",
+                "Numerics/Grain steps per exchange": steps})
+            self.assert_sound(run)
+            cycles = rows(run / "cycles.csv")
+            self.assertEqual(len(cycles), 2)
+            for row in cycles:
+                self.assertAlmostEqual(float(row["load_max_N"]), 100, delta=2)
+                self.assertAlmostEqual(float(row["load_min_N"]), 20, delta=1e-6)
 
     def test_sleeper_type(self):
         (self.folder / "b70.prm").write_text("subsection Sleeper\n  set Type = B70\n  set Width = 0.27\nend\n"
@@ -829,6 +833,13 @@ class Commands(SceneTest):
         self.run_scene("a", change=SHORT)
         self.trackbed("report", "a")
         self.assertIn("<html", (self.folder / "a" / "report.html").read_text().lower())
+        # Nothing of it is left when another run takes its place, and nothing else is taken away.
+        (self.folder / "a" / "mine.png").write_text("")
+        (self.folder / "a" / "structure_of_mine.vtu").write_text("")
+        names = lambda run: {p.name for p in (self.folder / run).iterdir()}
+        self.trackbed("pack", "tiny.prm", "--output", "a", "--overwrite")
+        self.trackbed("pack", "tiny.prm", "--output", "b")
+        self.assertEqual(names("a") - names("b"), {"mine.png", "structure_of_mine.vtu"})
 
     def test_settings_change_the_run(self):
         one = self.run_scene("one", change=SHORT)

@@ -153,11 +153,6 @@ TEST(EffectsOff, no_zones_draw_from_one_library) {
             0);
 }
 
-TEST(EffectsOff, no_noise_is_no_change) {
-  EXPECT_EQ(tiny().numerics.mirror_noise, 0);
-  EXPECT_EQ(1 + tiny({"Numerics/Mirror noise=1e-17"}).numerics.mirror_noise, 1);  // x *= 1
-}
-
 // Effect | tests that off equals the simpler model | tests that it adds nothing to a step.
 TEST(EffectsOff, each_effect_names_its_tests) {
   std::string sources;

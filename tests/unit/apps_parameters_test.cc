@@ -209,7 +209,7 @@ TEST(Scenes, AllThatAreShippedAreValid) {
 }
 
 TEST(Scenes, TheBallastBoxHasAbout730Grains) {
-  // METHODS A: 108.36 kg, about 730 grains counted class by class with V = 0.6 d3.
+  // By hand: 108.36 kg, about 730 grains counted class by class with V = 0.6 d3.
   const Plan plan = make_plan(read_scene(SCENES "/ballast_box.prm"), 2);
   EXPECT_NEAR(plan.grains, 730, 40);
   EXPECT_LT(make_plan(read_scene(SCENES "/small_box.prm"), 2).grains, 100);

@@ -55,7 +55,7 @@ TEST(GradationDraw, MeetsEveryNamedCurveWithinOnePercentPerClass) {
   }
 }
 
-// METHODS A: about 730 grains with V = 0.6 d3, counted class by class, where the paper counts 984.
+// By hand: about 730 grains with V = 0.6 d3, counted class by class, where the paper counts 984.
 TEST(GradationDraw, CountsOfTheWideGrading) {
   DrawParameters p;
   p.volume = shaos_volume;

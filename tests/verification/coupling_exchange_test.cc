@@ -211,7 +211,6 @@ TEST(Drop, on_a_stiff_body_is_that_on_a_rigid_floor) {
   }
 }
 
-// A block at rest on the elastic body: its weight reaches the support.
 // A cube pressed slowly on an elastic block: without inertia the surface is the static answer to
 // the forces it is given, and the moving block's comes within (f/f1)² of it, f1 = 350 Hz or more
 // (a column of 0.1 m held at its base, free to spread: c = √(E/ρ)).

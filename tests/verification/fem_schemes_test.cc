@@ -75,7 +75,7 @@ TEST(Zhai, StabilityLimits) {
   }
 }
 
-// φ = ψ = 0 grows at any step (METHODS E).
+// φ = ψ = 0 grows at any step.
 TEST(Zhai, WithoutItsCorrectionsGrows) {
   for (const double W : {0.05, 0.2, 1.}) EXPECT_GT(growth(unguarded(0, 0), W, 0), 1.5) << W;
 }

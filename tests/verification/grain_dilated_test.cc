@@ -1,4 +1,4 @@
-// Dilated polyhedra: Steiner's volume and the exact inertia against CASES and against each other.
+// Dilated polyhedra: Steiner's volume and the exact inertia against Sun 2015 and against each other.
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -20,7 +20,7 @@ TEST(Dilated, MeanCurvature) {
   EXPECT_NEAR(mean_curvature(make_box({0.4, 1.7, 3})), M_PI * 5.1, 1e-12);
 }
 
-// METHODS B, CASES: cube and tetrahedron of edge 1 with r = 1/10 and 1/5 (Sun 2015, Fig 2).
+// Cube and tetrahedron of edge 1 with r = 1/10 and 1/5 (Sun 2015, Fig 2).
 TEST(Dilated, CubeAndTetrahedron) {
   const Polyhedron cube = moved(make_box({1, 1, 1}), any_turn, {3, -2, 5});
   const Polyhedron tetra = moved(tetrahedron(), any_turn, {3, -2, 5});

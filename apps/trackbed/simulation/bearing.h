@@ -14,7 +14,8 @@ void keep_pressure(Run&);
 void write_pressure(const Run&, const std::string& file);
 
 /// moment.csv: x_m, deflection_m, moment_Nm along the sleeper, now. The moment follows from
-/// equilibrium of the part left of x under its contact forces, weight and seat loads (inertia
+/// equilibrium of the part right of x under its contact forces, weight (that of a block of the
+/// sleeper's size and density) and seat loads (inertia
 /// neglected), so rigid and elastic sleepers are measured alike; sagging positive.
 void write_moment(const Run&, const std::string& file);
 

@@ -6,7 +6,7 @@
 namespace trackbed::apps {
 
 struct Layout {
-  dem::Vec3 low, high;  ///< inner box of the container, x and y [m]; z from 0 to a high lid
+  dem::Vec3 low, high;  ///< inner box of the container, [m]; z from 0, with no lid
   double area;          ///< of the container's cross-section [m2]
   dem::Vec3 period;     ///< [m], 0 where there are walls
   double share;         ///< of the sleeper and its load that is simulated: 1, or 0.5 by symmetry

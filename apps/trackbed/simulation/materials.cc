@@ -21,12 +21,6 @@ const std::vector<std::string> kNamed{"grain", "wall", "mirror", "plate", "sleep
                    "modulus 1e9");
 }
 
-std::string trimmed(const std::string& s) {
-  const auto first = s.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return s.substr(first, s.find_last_not_of(" \t") - first + 1);
-}
-
 std::vector<std::string> pieces(const std::string& text, char at) {
   std::vector<std::string> out;
   std::istringstream in(text);

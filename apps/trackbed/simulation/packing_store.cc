@@ -18,9 +18,9 @@ constexpr const char* kVersion = "packing 10";  // raised when packings come out
 
 // Parameters that a packing does not depend on, by section or by key.
 bool matters(const std::string& key) {
-  static const std::set<std::string> sections{"Container", "Grains",   "Gradation",
-                                              "Zones",     "Contact",  "Packing",
-                                              "Sleeper",   "Numerics", "Subgrade"};
+  static const std::set<std::string> sections{"Container", "Grains",  "Gradation", "Zones",
+                                              "Contact",   "Packing", "Sleeper",   "Numerics",
+                                              "Subgrade",  "Output"};
   static const std::set<std::string> sleeper{
       "Sleeper/Length",   "Sleeper/Width",         "Sleeper/Height",     "Sleeper/Density",
       "Sleeper/Friction", "Sleeper/Pad thickness", "Sleeper/Pad density"};
@@ -30,7 +30,8 @@ bool matters(const std::string& key) {
   if (section == "Subgrade") return key == "Subgrade/Friction";
   if (section == "Numerics")
     return key == "Numerics/Margin" || key == "Numerics/Packing margin" ||
-           key == "Numerics/Time step";
+           key == "Numerics/Time step" || key == "Numerics/Time step rule";
+  if (section == "Output") return key == "Output/Samples per cycle";  // steps of a tamping cycle
   return key != "Packing/Folder" && key != "Packing/Reuse" && key != "Packing/Start from" &&
          key != "Packing/Origin" && key != "Contact/Local damping";
 }
@@ -64,6 +65,7 @@ bool take_packing(Run& run, const std::string& folder) {
     return false;
   load_run(kept.state, run);
   run.world.times = {};
+  run.wall_before = 0;
   write_aside_then_rename(folder + "/compaction.csv", read_text(kept.compaction));
   if (!run.path.empty() && std::filesystem::exists(kept.friction_path))
     write_aside_then_rename(folder + "/friction_path.csv", read_text(kept.friction_path));

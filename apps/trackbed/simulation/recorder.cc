@@ -95,6 +95,7 @@ void Recorder::energy(Run& run, const Stage& stage) {
   run.stage.last_work = work;
   run.stage.worst_closure = std::max(run.stage.worst_closure, std::abs(open));
   run.stage.exchange_gain = std::max(run.stage.exchange_gain, -f.transfer_error);
+  run.stage.structure_gain = std::max(run.stage.structure_gain, -f.structure_numerical);
 }
 
 void Recorder::cycle(const Run& run, const Stage&, double load_start, double u_start) {

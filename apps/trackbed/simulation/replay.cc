@@ -8,6 +8,7 @@
 #include "apps/trackbed/simulation/materials.h"
 #include "base/error.h"
 #include "coupling/edit.h"
+#include "dem/contact/restitution.h"
 #include "dem/packing/packing_file.h"
 
 namespace trackbed::apps {
@@ -63,7 +64,8 @@ void place_bodies(Run& run) {
 
 std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies& state, int a,
                            int b, const std::string& folder) {
-  if (b < 0 || a == b || !finite(state, a) || !finite(state, b)) return "";
+  if (b < 0 || a == b || std::max(a, b) >= state.size() || !finite(state, a) || !finite(state, b))
+    return "";
   const coupling::World& w = run.world;
   const auto& shape = [&](int i) { return w.shapes.shape(state.shape[i]); };
   dem::PackedGrains pair;
@@ -101,11 +103,12 @@ std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies
       << "' at step " << w.step << ", alone.\nset Title = Offender\n";
   const auto& values = run.scene.values;
   std::string contact =
-      set("Contact modulus", m.modulus) +
+      set("Contact modulus", m.modulus) + set("Tangential ratio", m.tangential_ratio) +
+      set("Restitution", dem::restitution_for_damping(run.scene.contact.round_law, m.damping)) +
+      (m.stiffness > 0 ? set("Stiffness", m.stiffness) : "") +
       set("Local damping", run.scene.contact.damping_kind == "local" ? stage.damping : 0.0);
-  for (const char* key :
-       {"Law", "Tangential ratio", "Round law", "Restitution", "Poisson", "Stiffness", "Damping",
-        "Torsional friction", "Rolling resistance", "Largest overlap"})
+  for (const char* key : {"Law", "Round law", "Poisson", "Damping", "Torsional friction",
+                          "Rolling resistance", "Largest overlap"})
     contact += set(key, values.at(std::string("Contact/") + key));
   out << section("Contact", contact)
       << section("Grains",

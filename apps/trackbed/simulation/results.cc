@@ -9,6 +9,7 @@
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/simulation/bearing.h"
 #include "apps/trackbed/simulation/grains.h"
+#include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/measures.h"
 #include "apps/trackbed/simulation/zones.h"
 #include "fem/modal_structure.h"
@@ -20,6 +21,7 @@ void write_gradation(const Run& run, const std::string& file) {
   const dem::SieveCurve curve = gradation_curve(run.scene);
   std::vector<double> sizes, volumes;
   for (int i = 0; i < run.world.bodies.grains; ++i) {
+    if (run.world.bodies.material[i] == kCoarseGrain) continue;  // not of this curve
     const dem::GrainShape& g = run.world.shapes.shape(run.world.bodies.shape[i]);
     sizes.push_back(g.sieve_size), volumes.push_back(g.volume);
   }
@@ -67,7 +69,7 @@ void write_grains(const Run& run, const std::string& file) {
   csv.flush();
 }
 
-void write_timing(const Run& run, const std::string& file, double wall) {
+void write_timing(const Run& run, const std::string& file) {
   const coupling::StepTimes& t = run.world.times;
   const std::vector<std::pair<const char*, double>> parts{{"grain contacts", t.grain_contacts},
                                                           {"surface contacts", t.surface_contacts},
@@ -77,7 +79,7 @@ void write_timing(const Run& run, const std::string& file, double wall) {
   double known = 0;
   for (const auto& p : parts) known += p.second;
   CsvWriter csv(file, {"stage", "calls", "seconds", "share"});
-  const double total = std::max(wall, known);
+  const double total = std::max(wall_time(run), known);
   for (const auto& [name, seconds] : parts) csv.row({name, t.steps, seconds, seconds / total});
   csv.row({"set-up, monitors, output", 1, total - known, (total - known) / total});
   csv.flush();
@@ -98,7 +100,7 @@ void report_reduction(const coupling::Surface& surface, CsvWriter& csv) {
            "the same under a force on one node in the middle: the local dent"});
 }
 
-void write_summary(const Run& run, const std::string& file, double wall) {
+void write_summary(const Run& run, const std::string& file) {
   const coupling::World& w = run.world;
   const StageState& s = run.stage;
   CsvWriter csv(file, {"quantity", "value", "unit", "meaning"});
@@ -113,8 +115,10 @@ void write_summary(const Run& run, const std::string& file, double wall) {
   row("contacts", coupling::count_contacts(w), "-", "touching at the end");
   row("coordination", coupling::coordination(w), "-", "mean contacts per grain at the end");
   row("contact modulus", run.scene.contact.modulus, "Pa", "softer than rock: larger overlaps");
-  row("largest overlap", s.largest_overlap, "-", "depth over the smaller grain's size");
-  row("time step share", s.largest_step_share, "-", "largest, of the measured stability limit");
+  row("largest overlap", s.largest_overlap, "-",
+      "depth over the smaller grain's size, since seating");
+  row("time step share", s.largest_step_share, "-",
+      "largest since seating, of the measured stability limit");
   const auto stages = packing_stages(run.scene);
   for (std::size_t k = 0; k < std::min(stages.size(), s.unrest.size()); ++k)
     if (stages[k].until_quiet)
@@ -127,6 +131,8 @@ void write_summary(const Run& run, const std::string& file, double wall) {
       "largest energy that the exchange made, over the work put in while loading");
   if (run.scene.loading.push != "none")
     row("push stiffness", s.push_stiffness, "N/m", "of the actuator, as its step allowed");
+  row("structure gain", s.work_in > 0 ? CsvCell(s.structure_gain / s.work_in) : CsvCell(), "-",
+      "largest energy that the structures' time integration made, over the same");
   for (const coupling::Surface& surface : w.surfaces)
     csv.row({"unknowns of the " + surface.patch.name, surface.structure->unknowns(), "-",
              "finite element degrees of freedom"});
@@ -134,7 +140,7 @@ void write_summary(const Run& run, const std::string& file, double wall) {
   row("steps", w.times.steps, "-", "time steps done");
   row("time step", w.times.steps ? CsvCell(w.time / static_cast<double>(w.step)) : CsvCell(), "s",
       "mean over the run");
-  row("wall time", wall, "s", "of this run");
+  row("wall time", wall_time(run), "s", "of this run, all its parts if it was resumed");
   row("threads", run.threads, "-", "used for the grains");
   csv.flush();
 }
@@ -167,13 +173,13 @@ void write_push(const std::string& history, const std::string& file) {
 
 }  // namespace
 
-void write_results(const Run& run, const std::string& folder, double wall) {
+void write_results(const Run& run, const std::string& folder) {
   write_gradation(run, folder + "/gradation.csv");
   write_classes(run, folder + "/classes.csv");
   write_measures(run, folder);
   write_grains(run, folder + "/grains.csv");
-  write_timing(run, folder + "/timing.csv", wall);
-  write_summary(run, folder + "/summary.csv", wall);
+  write_timing(run, folder + "/timing.csv");
+  write_summary(run, folder + "/summary.csv");
   write_effects(run.scene, folder + "/effects.csv");
   if (run.scene.loading.push != "none") write_push(folder + "/history.csv", folder + "/push.csv");
   if (run.scene.zones.use) write_zones(run, folder + "/zones.csv");

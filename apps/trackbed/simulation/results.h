@@ -6,8 +6,9 @@
 
 namespace trackbed::apps {
 
-/// gradation.csv, grains.csv, timing.csv, summary.csv, and after load cycles pressure.csv
-/// (moment.csv is written at every load peak). `wall_seconds` of the whole run.
-void write_results(const Run&, const std::string& folder, double wall_seconds);
+/// gradation.csv (of coarse grains beside zones see zones.csv), classes.csv, porosity.csv,
+/// sections.csv, library.csv, grains.csv, timing.csv, summary.csv, effects.csv, and where the scene
+/// has them zones.csv, push.csv and pressure.csv (moment.csv is written at every load peak).
+void write_results(const Run&, const std::string& folder);
 
 }  // namespace trackbed::apps

@@ -110,6 +110,7 @@ struct Way {
       set_step(run, run.stage.dt);
       watch = start_watch(run);
     } else {
+      watch = {};  // the stage before knows nothing of the bodies that come
       enter_stage(run, stage);
       watch = start_watch(run);
       inspect(run, stage, watch);
@@ -221,7 +222,8 @@ Ending run_stages(Run& run, const std::vector<Stage>& stages, int first_index,
     } catch (const dem::StateFault&) {
       throw;
     } catch (const RunError&) {
-      inspect(run, way.stage_now(), watch);  // may know which grain it was
+      // May know which grain it was.
+      if (watch.before.size() > 0) inspect(run, way.stage_now(), watch);
       throw;
     }
   } catch (const dem::StateFault& fault) {

@@ -8,7 +8,7 @@
 namespace trackbed::apps {
 namespace {
 
-constexpr int kFormat = 8;  // raised when the arrays change
+constexpr int kFormat = 9;  // raised when the arrays change
 
 template <class A>
 void visit(A& a, const std::string& name, bool& flag) {
@@ -46,6 +46,7 @@ void visit(A& a, StageState& s) {
   a("stage/largest_step_share", s.largest_step_share);
   a("stage/work_in", s.work_in), a("stage/last_work", s.last_work);
   a("stage/worst_closure", s.worst_closure), a("stage/exchange_gain", s.exchange_gain);
+  a("stage/structure_gain", s.structure_gain);
   a("stage/unrest", s.unrest), a("stage/grain_force", s.grain_force);
   a("stage/pressure", s.pressure), a("stage/pressure_samples", s.pressure_samples);
 }
@@ -91,10 +92,16 @@ void visit(A& a, RunRecords& r) {
 
 template <class A>
 void visit(A& a, coupling::StepTimes& t) {
-  std::vector<double> v{t.motion,           t.candidates, t.grain_contacts,
-                        t.surface_contacts, t.structures, static_cast<double>(t.steps)};
+  std::vector<double> v{t.motion,
+                        t.candidates,
+                        t.grain_contacts,
+                        t.surface_contacts,
+                        t.structures,
+                        static_cast<double>(t.steps),
+                        static_cast<double>(t.iterations)};
   a("times", v);
-  if (v.size() == 6) t = {v[0], v[1], v[2], v[3], v[4], static_cast<long>(v[5])};
+  if (v.size() == 7)
+    t = {v[0], v[1], v[2], v[3], v[4], static_cast<long>(v[5]), static_cast<long>(v[6])};
 }
 
 }  // namespace
@@ -110,6 +117,8 @@ void save_run(const std::string& file, Run& run, const RunRecords& records) {
   RunRecords copy = records;
   visit(a, copy);
   visit(a, run.world.times);
+  double wall = wall_time(run);
+  a("wall", wall);
   coupling::write_world(a, run.world);
   a.commit();
 }
@@ -128,6 +137,7 @@ RunRecords load_run(const std::string& file, Run& run) {
   RunRecords records;
   visit(a, records);
   visit(a, run.world.times);
+  a("wall", run.wall_before);
   run.layout = run.actors.sample ? sample_layout(run.scene) : make_layout(run.scene);
   coupling::read_world(a, run.world);
   if (run.actors.sleeper_surface >= 0 || run.actors.subgrade_surface >= 0) {
@@ -144,7 +154,9 @@ void restore_bed(const std::string& file, Run& run) {
   const double time = run.world.time;
   const long step = run.world.step;
   const coupling::StepTimes times = run.world.times;
+  const double wall = run.wall_before;
   load_run(file, run);
+  run.wall_before = wall;
   run.stage = stage;
   run.path = path;
   run.test = test;

@@ -1,6 +1,5 @@
 #include "apps/trackbed/simulation/simulate.h"
 
-#include <chrono>
 #include <filesystem>
 #include <thread>
 
@@ -31,7 +30,6 @@ Run make_run(const Scene& scene, int threads) {
 }  // namespace
 
 Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& progress) {
-  const auto begun = std::chrono::steady_clock::now();
   const std::string& folder = options.folder;
   const std::string resolved = folder + "/scene.resolved.prm";
   if (options.resume && std::filesystem::exists(resolved) && read_text(resolved) != scene.resolved)
@@ -56,8 +54,7 @@ Ending simulate(const Scene& scene, const SimulationOptions& options, Progress& 
 
   const auto finish = [&](Ending ending) {
     recorder.flush();
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
-    write_results(run, folder, wall.count());
+    write_results(run, folder);
     if (!run.scene.test.on() || options.packing_only) return ending;
     for (const std::string& line : write_grain_test(run, folder)) progress.note(line);
     if (ending == Ending::done) forget_test_bed(run);

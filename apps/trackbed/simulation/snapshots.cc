@@ -27,8 +27,14 @@ class File {
  public:
   File(const std::string& path, bool fresh) : path_(path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    id_ = fresh ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-                : H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    // One who looks at the file meanwhile must not stop the run: no locks.
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access, false, true);
+    id_ = fresh ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
+                : H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+    H5Pclose(access);
+    if (id_ < 0 && !fresh)
+      throw RunError(path + ": cannot be gone on with: missing, damaged or not to be written to");
     check(id_ >= 0);
   }
   ~File() {

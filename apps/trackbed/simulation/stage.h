@@ -1,6 +1,7 @@
 // A run is a row of stages; each says which bodies and loads it has, how hard its contacts are,
 // and when it is over. Stages are plain data, made from the scene; run_stages() runs them.
 #pragma once
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -53,16 +54,19 @@ struct StageState {
   double push_start = 0, push = 0;  ///< sleeper along the push: at its start, and since then [m]
   double push_force = 0;            ///< of the actuator [N]
   double push_stiffness = 0;        ///< of its spring, as the step allows [N/m]
-  double largest_overlap = 0;       ///< depth over grain size, so far in the run
-  double largest_step_share = 0;    ///< time step over the measured limit, so far in the run
+  // Since the last stage that does not go on with the bed of the one before: seating, for a loaded
+  // bed.
+  double largest_overlap = 0;       ///< depth over grain size
+  double largest_step_share = 0;    ///< time step over the measured limit
+  std::vector<double> grain_force;  ///< largest contact force per grain [N]
   double work_in = 0;               ///< sum of the rises of the ledger's work [J]
   double last_work = 0;             ///< its last value [J]
   double worst_closure = 0;         ///< largest |closure| since the ledger was opened [J]
   double exchange_gain = 0;         ///< largest energy that the exchange had made since then [J]
+  double structure_gain = 0;        ///< the same of the structures' time integration [J]
   /// Of each stage that was to come to rest, at its end: kinetic energy or unbalanced force over
   /// what is allowed, the larger; others 0.
   std::vector<double> unrest;
-  std::vector<double> grain_force;  ///< largest contact force per grain [N]
   std::vector<double> pressure;     ///< under the sleeper, sum over load peaks, by cell [Pa]
   int pressure_samples = 0;
 };
@@ -74,13 +78,21 @@ struct Run {
   coupling::World world;
   Actors actors;
   StageState stage;
-  GrainTestState test;                          ///< of a test of grains
-  std::string folder;                           ///< results go here
+  GrainTestState test;  ///< of a test of grains
+  std::string folder;   ///< results go here
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+  double wall_before = 0;                       ///< of earlier parts of a resumed run [s]
   std::vector<PathPoint> path;                  ///< of quasi-vibration, in the order they were made
   std::vector<dem::GrainShape> library;         ///< made when first needed
   std::vector<dem::GrainShape> coarse_library;  ///< of the zones outside, the same
   std::function<void(double)> library_progress;  ///< is told the share of it that is done
 };
+
+/// Of the run until now, its earlier parts included [s].
+inline double wall_time(const Run& run) {
+  const std::chrono::duration<double> part = std::chrono::steady_clock::now() - run.begun;
+  return run.wall_before + part.count();
+}
 
 struct Stage {
   std::string name;
@@ -96,6 +108,7 @@ struct Stage {
   double unbalanced = 0;  ///< then also the mean unbalanced force is below this share; 0 = any
   bool ledger = false;    ///< opens the energy ledger at its start
   bool gravity = true;
+  bool goes_on = false;  ///< with the bed of the stage before: what its grains bore is kept
   std::function<void(Run&)> enter;  ///< changes bodies and surfaces, and stage.friction
   std::function<double(const Run&, double)> load;  ///< force at a time since the stage's start [N]
   std::function<double(double)> push;     ///< the actuator's place [m] at that time; empty: no push

@@ -44,7 +44,10 @@ void enter_stage(Run& run, const Stage& stage) {
   StageState& s = run.stage;
   s.steps = s.cycles = s.halvings = 0;
   s.start = run.world.time;
-  s.grain_force.resize(run.world.bodies.grains, 0.0);
+  if (!stage.goes_on) {  // others may have come or gone since
+    s.grain_force.assign(run.world.bodies.grains, 0.0);
+    s.largest_overlap = s.largest_step_share = 0;
+  }
   apply_load(run, stage.load(run, 0));
   // Positions, not motion: forces where everything stands.
   s.dt = 0;
@@ -54,7 +57,8 @@ void enter_stage(Run& run, const Stage& stage) {
     if (run.scene.numerics.mirror_noise > 0)
       run.world.bodies.x[0] *= 1 + run.scene.numerics.mirror_noise;
     coupling::open_ledger(run.world, step_context(run, stage).gravity);
-    s.work_in = s.last_work = s.worst_closure = s.exchange_gain = s.pad_work = s.pad_loss = 0;
+    s.work_in = s.last_work = s.worst_closure = s.pad_work = s.pad_loss = 0;
+    s.exchange_gain = s.structure_gain = 0;
   }
 }
 

@@ -12,6 +12,11 @@ namespace {
 
 constexpr double kSampleTime = 5e-3;  // between lines of history in a stage without cycles [s]
 
+// The step of a cycle that comes nearest to the peak of its load: one at the end of an exchange.
+int peak_step(const Stage& stage, int steps_per_cycle, int per_exchange) {
+  return per_exchange * static_cast<int>(stage.peak * steps_per_cycle / per_exchange + 0.5);
+}
+
 }  // namespace
 
 bool reached(const StageState& s, int interval, int taken) {
@@ -34,7 +39,8 @@ bool record_cycle(Run& run, const Stage& stage, Recorder& recorder, const std::s
   StageState& s = run.stage;
   const int phase = s.steps % s.steps_per_cycle;
   const bool tamping = run.actors.plate;
-  if (!tamping && phase == static_cast<int>(stage.peak * s.steps_per_cycle + 0.5)) {
+  if (!tamping &&
+      phase == peak_step(stage, s.steps_per_cycle, coupling::steps_per_exchange(run.world))) {
     s.u_max = sleeper_displacement(run) - s.u0;
     s.load_max = s.load;
     keep_pressure(run);

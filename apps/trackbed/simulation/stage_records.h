@@ -21,7 +21,7 @@ void record_start(Run&, const Stage&, Recorder&);
 /// What is recorded at the trough and at the peak of a load cycle. True: the stage is over.
 bool record_cycle(Run&, const Stage&, Recorder&, const std::string& folder);
 
-/// Keeps the largest contact force that each grain has had in the stage.
+/// Keeps the largest contact force that each grain has had (StageState::grain_force).
 void keep_grain_forces(Run&);
 
 /// For the progress bar: how far the stage's own quantity has come.

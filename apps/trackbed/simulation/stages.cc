@@ -135,6 +135,7 @@ std::vector<Stage> loading_stages(const Scene& s) {
 
   Stage loading = seating;
   loading.name = "loading";
+  loading.goes_on = true;
   loading.damping = s.contact.damping;
   loading.period = 1 / s.loading.frequency;
   loading.longest = s.loading.cycles * loading.period;
@@ -151,6 +152,7 @@ std::vector<Stage> loading_stages(const Scene& s) {
 
   Stage push = seating;
   push.name = "push";
+  push.goes_on = true;
   push.damping = s.contact.damping;
   push.longest = s.loading.push_distance / s.loading.push_speed;
   push.ledger = false;

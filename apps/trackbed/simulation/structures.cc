@@ -1,5 +1,7 @@
 #include "apps/trackbed/simulation/structures.h"
 
+#include <algorithm>
+
 #include "fem/beam.h"
 #include "fem/distributed_body.h"
 #include "fem/reduction.h"
@@ -15,8 +17,6 @@ void set_time_integration(const Scene& s, fem::ElasticBodyParameters& p) {
   p.solver = fem::solver_of(s.numerics.solver);
 }
 
-bool is_simulated(const Scene& s, double seat) { return !s.container.half || seat >= 0; }
-
 std::unique_ptr<fem::Structure> make_beam_sleeper(const Scene& scene, const Layout& l,
                                                   double base) {
   const SleeperScene& s = scene.sleeper;
@@ -27,12 +27,8 @@ std::unique_ptr<fem::Structure> make_beam_sleeper(const Scene& scene, const Layo
   p.cells_y = static_cast<int>(s.elements[1]), p.cells_z = static_cast<int>(s.elements[2]);
   p.young = s.modulus, p.poisson = s.poisson, p.density = s.density;
   p.half = scene.container.half;
-  for (const double x : s.seats) {
-    if (!is_simulated(scene, x)) continue;
-    double length = s.seat_length, centre = x;
-    if (p.half && x < 0.5 * length) length = 0.5 * length + x, centre = 0.5 * length;
-    p.loads.push_back({"seat", centre, length, {0, 0, -1}});
-  }
+  for (const RailSeat& seat : rail_seats(scene))
+    p.loads.push_back({"seat", (seat.low + seat.high) / 2, seat.high - seat.low, {0, 0, -1}});
   if (scene.loading.push == "lateral") p.loads.push_back({"push", p.high_x, 0, {1, 0, 0}});
   if (scene.loading.push == "longitudinal")
     p.loads.push_back({"push", 0.5 * (p.low_x + p.high_x), p.high_x - p.low_x, {0, 1, 0}});
@@ -49,11 +45,17 @@ std::vector<std::string> sleeper_contact(const Scene& s) {
   return faces;
 }
 
-int seat_loads(const Scene& scene) {
-  int count = 0;
-  for (const double x : scene.sleeper.seats) count += is_simulated(scene, x);
-  return count;
+std::vector<RailSeat> rail_seats(const Scene& scene) {
+  std::vector<RailSeat> seats;
+  const bool half = scene.container.half;
+  const double reach = scene.sleeper.seat_length / 2;
+  for (const double x : scene.sleeper.seats)
+    if (!half || x >= 0)
+      seats.push_back({x, half ? std::max(0.0, x - reach) : x - reach, x + reach});
+  return seats;
 }
+
+int seat_loads(const Scene& scene) { return static_cast<int>(rail_seats(scene).size()); }
 
 std::unique_ptr<fem::Structure> make_elastic_sleeper(const Scene& scene, const Layout& l,
                                                      double base) {
@@ -82,18 +84,13 @@ std::unique_ptr<fem::Structure> make_elastic_sleeper(const Scene& scene, const L
   }
   p.order = s.order;
   if (scene.container.half) p.supports["x_min"] = fem::Support::roller;
-  for (const double x : s.seats) {
-    if (!is_simulated(scene, x)) continue;
+  for (const RailSeat& at : rail_seats(scene)) {
     fem::Load seat;
     seat.name = "seat";
     seat.boundary = "top";
     seat.rectangle = true;
-    seat.centre_x = x, seat.centre_y = 0;
-    seat.size_x = s.seat_length, seat.size_y = s.seat_width;
-    if (scene.container.half && x < 0.5 * s.seat_length) {  // a seat on the plane of symmetry
-      seat.size_x = 0.5 * s.seat_length + x;
-      seat.centre_x = 0.5 * seat.size_x;
-    }
+    seat.centre_x = (at.low + at.high) / 2, seat.centre_y = 0;
+    seat.size_x = at.high - at.low, seat.size_y = s.seat_width;
     p.loads.push_back(seat);
   }
   if (scene.loading.push != "none") {

@@ -16,6 +16,15 @@ std::unique_ptr<fem::Structure> make_elastic_sleeper(const Scene&, const Layout&
 /// the scene is periodic). Not for "rigid".
 std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene&, const Layout&);
 
+/// A rail seat, of a half sleeper what lies at x >= 0 of it; its load is even over [low, high].
+struct RailSeat {
+  double x;          ///< as the scene gives it [m]
+  double low, high;  ///< [m]
+};
+
+/// Those that are simulated, in the scene's order. They share the simulated load evenly.
+std::vector<RailSeat> rail_seats(const Scene&);
+
 /// How many of the elastic sleeper's loads are rail seats.
 int seat_loads(const Scene&);
 

@@ -5,6 +5,7 @@
 
 #include "apps/trackbed/csv.h"
 #include "apps/trackbed/simulation/bearing.h"
+#include "apps/trackbed/simulation/structures.h"
 #include "dem/contact/pairs.h"
 
 namespace trackbed::apps {
@@ -66,18 +67,17 @@ void write_subgrade_pressure(const Run& run, const std::string& folder) {
 }
 
 void write_rail_seats(const Run& run, const std::string& file) {
-  std::vector<double> seats;
-  for (const double x : run.scene.sleeper.seats)
-    if (x >= run.layout.sleeper_low_x) seats.push_back(x);
+  const std::vector<RailSeat> seats = rail_seats(run.scene);
   CsvWriter csv(file, {"seat", "x_m", "load_N", "displacement_m", "rail_displacement_m"});
-  const double share = run.stage.load * run.layout.share / std::max<std::size_t>(1, seats.size());
+  // Also of a seat that is half simulated: the whole load.
+  const double load = run.stage.load / static_cast<double>(run.scene.sleeper.seats.size());
   for (std::size_t k = 0; k < seats.size(); ++k) {
-    double u = deflection_at(run, seats[k]);
+    double u = deflection_at(run, seats[k].x);
     if (run.actors.sleeper_surface >= 0) {
       const fem::Structure& s = *run.world.surfaces[run.actors.sleeper_surface].structure;
       if (static_cast<int>(k) < s.loads()) u = -s.load_displacement(static_cast<int>(k))[2];
     }
-    csv.row({static_cast<int>(k + 1), seats[k], share, u, u + run.stage.pad});
+    csv.row({static_cast<int>(k + 1), seats[k].x, load, u, u + run.stage.pad});
   }
   csv.flush();
 }

@@ -69,7 +69,8 @@ void check_surfaces(const Run& run, const Stage& stage) {
       const int i = s.contacts.grain[k];
       const double size = std::cbrt(w.shapes.shape(w.bodies.shape[i]).volume);
       if (s.contacts.depth[k] <= allowed * size) continue;
-      const double depth = dem::penetration(w.bodies, w.shapes, s.contacts, k), share = depth / size;
+      const double depth = dem::penetration(w.bodies, w.shapes, s.contacts, k),
+                   share = depth / size;
       if (share <= allowed) continue;
       char text[400];
       std::snprintf(text, sizeof text,
@@ -116,9 +117,21 @@ void check_ledger(const Run& run, const Stage& stage) {
     put_in += std::max(
         0.0, w.start.gravity - dem::gravity_energy(w.bodies, step_context(run, stage).gravity));
   if (!stage.ledger || !(put_in > 0)) return;
-  const bool open = s.worst_closure > allowed * put_in;
-  const double amount = open ? s.worst_closure : s.exchange_gain;
-  if (!open && !(s.exchange_gain > allowed * put_in)) return;
+  const struct {
+    double amount;
+    const char *what, *remedy;
+  } gaps[] = {{s.worst_closure, "the energy ledger is open by",
+               "The time step is probably too large for the contacts: halve Numerics/Margin or "
+               "Numerics/Time step."},
+              {s.exchange_gain, "the exchange with the structures made",
+               "Its steps are too long, or it is lagged: Numerics/Exchange = predicted or "
+               "iterated, or fewer grain steps per exchange."},
+              {s.structure_gain, "the structures' time integration made",
+               "Its steps are too long for the structures: another Numerics/Structure scheme, or a "
+               "smaller Numerics/Margin."}};
+  const auto* gap = std::find_if(std::begin(gaps), std::end(gaps),
+                                 [&](const auto& g) { return g.amount > allowed * put_in; });
+  if (gap == std::end(gaps)) return;
   const dem::Deepest deepest = dem::deepest_overlap(w.bodies, w.shapes, w.pairs);
   const int a = deepest.pair < 0 ? -1 : w.pairs.a[deepest.pair];
   const int b = deepest.pair < 0 ? -1 : w.pairs.b[deepest.pair];
@@ -130,14 +143,8 @@ void check_ledger(const Run& run, const Stage& stage) {
   std::snprintf(text, sizeof text,
                 "step %ld (%s): %s %.3g J, %.2g %% of the %.3g J put in; Numerics/Closure "
                 "allows %.2g %%. %s%s",
-                w.step, when(run, stage).c_str(),
-                open ? "the energy ledger is open by" : "the exchange with the structures made",
-                amount, 100 * amount / put_in, put_in, 100 * allowed,
-                open ? "The time step is probably too large for the contacts: halve "
-                       "Numerics/Margin or Numerics/Time step."
-                     : "Its steps are too long, or it is lagged: Numerics/Exchange = predicted or "
-                       "iterated, or fewer grain steps per exchange.",
-                pair);
+                w.step, when(run, stage).c_str(), gap->what, gap->amount,
+                100 * gap->amount / put_in, put_in, 100 * allowed, gap->remedy, pair);
   throw dem::StateFault(text, a, b);
 }
 

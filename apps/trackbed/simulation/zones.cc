@@ -119,18 +119,20 @@ GrainBatch draw_batch(Run& run, double mass, int stream, bool beside) {
     fine.push_back(z.area * z.fine), coarse.push_back(z.area * (1 - z.fine));
     area += z.area, fine_area += fine.back();
   }
-  for (double& a : fine) a /= fine_area;
-  for (double& a : coarse) a /= area - fine_area;
+  const auto draw = [&](const Scene& scene, const std::vector<dem::GrainShape>& library,
+                        std::vector<double>& areas, double own) {
+    if (!(own > 0)) return;  // beside the sleeper there may be no fine zone left
+    for (double& a : areas) a /= own;
+    const auto grains = draw_grains(scene, library, mass * own / area, stream);
+    assign(grains, areas, batch.zone);
+    batch.grains.insert(batch.grains.end(), grains.begin(), grains.end());
+  };
   const Scene outside = coarse_scene(s);
   if (run.coarse_library.empty())
     run.coarse_library = make_grain_library(outside, run.library_progress);
-  batch.grains = draw_grains(s, run.library, mass * fine_area / area, stream);
+  draw(s, run.library, fine, fine_area);
   batch.fine = static_cast<int>(batch.grains.size());
-  assign(batch.grains, fine, batch.zone);
-  const auto others =
-      draw_grains(outside, run.coarse_library, mass * (1 - fine_area / area), stream);
-  assign(others, coarse, batch.zone);
-  batch.grains.insert(batch.grains.end(), others.begin(), others.end());
+  draw(outside, run.coarse_library, coarse, area - fine_area);
   check_seam(period, batch.grains);
   return batch;
 }

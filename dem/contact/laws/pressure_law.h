@@ -7,6 +7,9 @@
 
 namespace trackbed::dem {
 
+/// 4/(3 sqrt(pi)) of Shao 2017 Eq. 17.
+inline constexpr double kShaoFactor = 0.75225277806367504925;
+
 /// Constants of one pair of materials, mixed when the pair of materials is made.
 struct PairMaterial {
   double modulus = 0;           ///< E of Shao 2017 Eq. 17 [Pa]; two bodies: 2 E1 E2/(E1+E2)

@@ -26,7 +26,7 @@ struct Shao2017Law {
     NormalResponse r;
     const double area = std::abs(s.area.z());
     if (!(s.volume > 0) || !(s.depth > 0) || !(area > 0)) return r;
-    const double k = 0.75225277806367504925 * m.modulus;  // 4E/(3 sqrt(pi)), Eq. 18
+    const double k = kShaoFactor * m.modulus;  // Eq. 18
     r.p0 = k * std::sqrt(s.volume * s.depth) / area;
     r.acts_on = Vec3(0, 0, 1);
     r.stiffness = 1.1547005383792515 * k * std::sqrt(area);
