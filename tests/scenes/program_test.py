@@ -149,7 +149,8 @@ class Runs(SceneTest):
     def test_subgrade_pressure(self):
         """Once at rest (tenths of a second), between walls without friction, the ground carries ballast, sleeper and load."""
         run = self.run_scene("a", change={"Container/Friction": "0", "Loading/Largest": "21",
-                                          "Loading/Ramp time": "0.4", "Contact/Local damping": "0.7"})
+                                          "Loading/Ramp time": "0.4", "Contact/Local damping": "0.7",
+                                          "Sleeper/Model": "rigid", "Sleeper/Degrees of freedom": "vertical"})
         pressure = rows(run / "subgrade_pressure.csv")
         area = 0.13 * 0.11 / len(pressure)
         weight = 9.81 * (float(self.summary(run)["grain mass"]) + 2800 * 0.07 * 0.08 * 0.03)

@@ -11,10 +11,12 @@
 #include "apps/trackbed/read_scene.h"
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/bearing.h"
+#include "apps/trackbed/simulation/materials.h"
 #include "apps/trackbed/simulation/stage_entry.h"
 #include "apps/trackbed/simulation/subgrade_bearing.h"
 #include "apps/trackbed/simulation/watch.h"
 #include "apps/trackbed/simulation/zones.h"
+#include "base/error.h"
 #include "coupling/edit.h"
 #include "dem/motion/monitor.h"
 
@@ -32,14 +34,14 @@ Run run_of(const Changes& changes = {}) {
 
 // Two cubes that do not touch.
 void add_cubes(Run& run) {
-  const dem::GrainShape cube = dem::as_grain(dem::make_box({.05, .05, .05}));
+  const dem::GrainShape cube = dem::make_grain_shape(dem::make_box({.05, .05, .05}));
   coupling::add_grains(run.world, {cube, cube}, {{.01, .02, .1}, {.11, .02, .1}},
                        {dem::Quat::Identity(), dem::Quat::Identity()}, 2600, kGrain);
 }
 
 TEST(StageStart, without_noise_no_bit_moves) {
   for (const double noise : {0., 1e-12}) {
-    Run run = run_of();
+    apps::Run run = run_of();
     run.scene.numerics.mirror_noise = noise;
     add_cubes(run);
     const dem::Vec3 x = run.world.bodies.x[0];
@@ -50,7 +52,7 @@ TEST(StageStart, without_noise_no_bit_moves) {
 }
 
 TEST(StageStart, what_grains_bore_is_of_this_bed) {
-  Run run = run_of();
+  apps::Run run = run_of();
   add_cubes(run);
   run.stage.grain_force = {7, 8, 9};  // one of them was trimmed away
   run.stage.largest_overlap = run.stage.largest_step_share = .5;
@@ -90,18 +92,18 @@ TEST(Bearing, moment_and_seats_of_a_sleeper_in_the_air) {
   std::string name = (std::filesystem::temp_directory_path() / "trackbed.XXXXXX").string();
   const std::string folder = ::mkdtemp(name.data());
   const double load = 8e4;
-  for (const char* seats : {"0", "-0.05, 0.05"})
+  for (const char* seats : {"0", "-0.015, 0.015"})
     for (const char* half : {"false", "true"}) {
       const Changes changes{std::string("Container/Half by symmetry=") + half,
-                            std::string("Sleeper/Seats=") + seats, "Sleeper/Seat length=0.04"};
-      Run run = run_of(changes);
+                            std::string("Sleeper/Seats=") + seats, "Sleeper/Seat length=0.02"};
+      apps::Run run = run_of(changes);
       const SleeperScene& s = run.scene.sleeper;
       add_rigid_sleeper(run);
       run.stage.load = load;
       write_moment(run, folder + "/moment.csv");
       write_rail_seats(run, folder + "/rail_seats.csv");
       // Of what lies right of x = 0: half of the load and of the weight.
-      const double arm = s.seats.size() == 1 ? .04 / 4 : .05;
+      const double arm = s.seats.size() == 1 ? .02 / 4 : .015;
       const double weight = 9.81 * s.density * s.width * s.height * s.length / 2;
       const auto moment = rows_of(folder + "/moment.csv");
       const auto& middle = run.scene.container.half ? moment.front() : moment[moment.size() / 2];
@@ -114,8 +116,9 @@ TEST(Bearing, moment_and_seats_of_a_sleeper_in_the_air) {
 }
 
 TEST(Zones, of_no_margin_leave_coarse_grains_beside_the_sleeper) {
-  Run run = run_of({"Zones/Use=true", "Zones/Margin=0", "Zones/Transition=0", "Zones/Size ratio=1.2",
-                    "Container/Length=0.3", "Container/Ballast depth=0.08"});
+  apps::Run run =
+      run_of({"Zones/Use=true", "Zones/Margin=0", "Zones/Transition=0", "Zones/Size ratio=1.2",
+              "Container/Length=0.3", "Container/Ballast depth=0.08"});
   const GrainBatch under = draw_batch(run, 1, 0, false), beside = draw_batch(run, 1, 1, true);
   EXPECT_GT(under.fine, 0);
   EXPECT_GT(static_cast<int>(under.grains.size()), under.fine);
@@ -123,8 +126,19 @@ TEST(Zones, of_no_margin_leave_coarse_grains_beside_the_sleeper) {
   EXPECT_GT(beside.grains.size(), 0u);
 }
 
+TEST(Watch, a_sleeper_beside_the_bed_stops_the_run) {
+  apps::Run run = run_of();
+  add_cubes(run);
+  add_rigid_sleeper(run);
+  const Stage stage = bed_stage(run.scene, "test", 1, 0);
+  Watch watch = start_watch(run);
+  EXPECT_NO_THROW(inspect(run, stage, watch));
+  run.world.bodies.x[run.world.bodies.grains].z() -= run.actors.sleeper_base + .01;
+  EXPECT_THROW(inspect(run, stage, watch), RunError);
+}
+
 TEST(Books, energy_made_by_a_structure_stops_the_run) {
-  Run run = run_of();
+  apps::Run run = run_of();
   add_cubes(run);
   const Stage stage = bed_stage(run.scene, "test", 1, 0);
   run.stage.work_in = 100;

@@ -6,6 +6,7 @@
 
 #include "apps/trackbed/simulation/actors.h"
 #include "apps/trackbed/simulation/replay.h"
+#include "base/error.h"
 #include "dem/motion/energy.h"
 #include "dem/surface/penetration.h"
 
@@ -84,6 +85,22 @@ void check_surfaces(const Run& run, const Stage& stage) {
     }
 }
 
+// One that slid off a small bed lies beside it.
+void check_sleeper(const Run& run, const Stage& stage) {
+  if (run.actors.sleeper_surface < 0 && !run.actors.rigid_sleeper) return;
+  const double base = run.actors.sleeper_base - sleeper_displacement(run);
+  if (base >= 0) return;
+  char text[300];
+  std::snprintf(
+      text, sizeof text,
+      "step %ld (%s): the sleeper has left the bed, its base is %.3g m below the "
+      "subgrade's top. Likely cause: the bed is too narrow for it or loose, and it tipped. "
+      "Remedy: a wider Container, Container/Fill height, or Sleeper/Degrees of freedom = "
+      "vertical.",
+      run.world.step, when(run, stage).c_str(), -base);
+  throw RunError(text);
+}
+
 }  // namespace
 
 Watch start_watch(const Run& run) {
@@ -104,6 +121,7 @@ void inspect(const Run& run, const Stage& stage, Watch& watch) {
   dem::check_state(w.bodies, w.shapes, w.pairs, c, w.step, limits(run, watch, c.gravity),
                    when(run, stage));
   check_surfaces(run, stage);
+  check_sleeper(run, stage);
   watch.energy = std::max(watch.energy, strongest_contact(run));
   watch.before = w.bodies;
 }
