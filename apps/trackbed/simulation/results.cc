@@ -120,10 +120,12 @@ void write_summary(const Run& run, const std::string& file) {
   row("time step share", s.largest_step_share, "-",
       "largest since seating, of the measured stability limit");
   const auto stages = packing_stages(run.scene);
-  for (std::size_t k = 0; k < std::min(stages.size(), s.unrest.size()); ++k)
-    if (stages[k].until_quiet)
+  for (std::size_t k = 0; k < std::min(stages.size(), s.unrest.size()); ++k) {
+    const bool shaken = k + 1 < stages.size() && !stages[k + 1].until_quiet;  // no matter then
+    if (stages[k].until_quiet && !shaken)
       csv.row({"unrest of " + stages[k].name, s.unrest[k], "-",
                "at its end, over what Packing/Quiet (and Unbalanced force) allows"});
+  }
   row("closure", s.work_in > 0 ? CsvCell(s.worst_closure / s.work_in) : CsvCell(), "-",
       "largest energy not accounted for, over the work put in while loading");
   row("closure tolerance", run.scene.numerics.closure, "-", "stated in the scene");
