@@ -33,7 +33,7 @@ class DistributedMotion {
   /// a = M⁻¹ f: of a body at rest and undeformed.
   void start_free();
 
-  /// Where the unknowns will be at t+Δt, exact if explicit, and how fast (METHODS F).
+  /// Where the unknowns will be at t+Δt, exact if explicit, and how fast.
   void predict(DistributedVector& displacement, DistributedVector& velocity) const;
 
   double kinetic();  ///< [J]
