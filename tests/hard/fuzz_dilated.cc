@@ -4,23 +4,19 @@
 //   - by duality: |y - x| - r_a - r_b is convex, so that its slopes at the balls found and the
 //     vertices of both cores bound how much deeper any two balls can be;
 //   - flat faces: the overlap of the prism pair that is largest against CGAL's exact arithmetic,
-//   and
-//     the sum against that of all faces of both;
+//     and the sum against that of all faces of both;
 //   - by symmetry of the two bodies, and by force and torque as gradients of the energy.
 // An offender is kept as a scene, DIR/*.prm, which `trackbed run` replays. Exit 1 if there is one.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include "dem/contact/face_prism.h"
 #include "dem/contact/flat_contact.h"
 #include "dem/packing/packing_file.h"
 #include "motion_scene.h"
+#include "tests/hard/fuzz_order.h"
 #include "tests/verification/exact_overlap.h"
 
 namespace trackbed::dem::test {
@@ -285,18 +281,14 @@ void keep(const Scene& s, const char* law, const std::string& stem) {
                                << fs::path(stem).filename().string() << ".csv\nend\n";
 }
 
-int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folder) {
-  Random random(seed);
-  const auto begun = std::chrono::steady_clock::now();
-  const auto elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  };
+int fuzz(const FuzzOrder& order) {
+  Random random(order.seed);
   const auto dilated = [&] {
     return as_grain(make_dilated_shape({any_core(random), random.uniform(.03, .3)}));
   };
   long pairs = 0, flats = 0, deep = 0;
   int offenders = 0;
-  for (; pairs < most && elapsed() < seconds && offenders < 20; ++pairs) {
+  for (; !order.is_done(pairs, offenders); ++pairs) {
     const char* law = random.below(3) ? "hertz_flat" : "hertz_mindlin";
     const GrainShape a = dilated();
     const GrainShape b = random.below(5) == 0   ? make_grain_shape(any_core(random))
@@ -309,8 +301,7 @@ int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folde
     if (!fault.what) continue;
     ++offenders;
     s.bodies.x[1] = x;
-    const std::string stem =
-        folder + "/seed_" + std::to_string(seed) + "_pair_" + std::to_string(pairs);
+    const std::string stem = order.stem(pairs);
     keep(s, law, stem);
     std::printf("%s, %s: off by %.3g, kept as %s.prm\n", law, fault.what, fault.value,
                 stem.c_str());
@@ -318,7 +309,7 @@ int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folde
   std::printf(
       "seed %llu: %ld pairs, %ld with flat parts, %ld with cores that touch, %d offenders, "
       "%.0f s\n",
-      static_cast<unsigned long long>(seed), pairs, flats, deep, offenders, elapsed());
+      static_cast<unsigned long long>(order.seed), pairs, flats, deep, offenders, order.elapsed());
   return offenders > 0;
 }
 
@@ -326,26 +317,6 @@ int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folde
 }  // namespace trackbed::dem::test
 
 int main(int argc, char** argv) {
-  double seconds = 0;
-  long pairs = 0;
-  std::uint64_t seed = 1;
-  std::string folder = "results/fuzz";
-  for (int k = 1; k < argc; ++k) {
-    if (!std::strcmp(argv[k], "--seed") && k + 1 < argc)
-      seed = std::strtoull(argv[++k], nullptr, 10);
-    else if (!std::strcmp(argv[k], "--output") && k + 1 < argc)
-      folder = argv[++k];
-    else if (!std::strcmp(argv[k], "--pairs") && k + 1 < argc)
-      pairs = std::strtol(argv[++k], nullptr, 10);
-    else
-      seconds = std::strtod(argv[k], nullptr);
-  }
-  if (!(seconds > 0) && !(pairs > 0)) {
-    std::fprintf(stderr,
-                 "fuzz_dilated SECONDS|--pairs COUNT [--seed N] [--output DIR]: how long?\n");
-    return 2;
-  }
-  if (!(seconds > 0)) seconds = HUGE_VAL;
-  if (!(pairs > 0)) pairs = std::numeric_limits<long>::max();
-  return trackbed::dem::test::fuzz(seconds, pairs, seed, folder);
+  return trackbed::dem::test::fuzz_as_ordered(argc, argv, "fuzz_dilated",
+                                              trackbed::dem::test::fuzz);
 }

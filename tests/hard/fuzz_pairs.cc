@@ -3,15 +3,12 @@
 // judged against CGAL's exact overlap, by symmetry of the two bodies, and by the law's force as
 // gradient of its energy. An offender is written to DIR as two OFF files, the second where it
 // stood. Exit 1 if there is one.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <limits>
 
 #include "dem/grain/off_io.h"
+#include "tests/hard/fuzz_order.h"
 #include "tests/verification/exact_overlap.h"
 
 namespace trackbed::dem::test {
@@ -180,29 +177,25 @@ Found judge(const Polyhedron& a, const Polyhedron& b, long& overlapping) {
   return fine;
 }
 
-int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folder) {
-  Random random(seed);
-  const auto begun = std::chrono::steady_clock::now();
-  const auto elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  };
+int fuzz(const FuzzOrder& order) {
+  Random random(order.seed);
   long pairs = 0, overlapping = 0;
   int offenders = 0;
-  for (; pairs < most && elapsed() < seconds && offenders < 20; ++pairs) {
+  for (; !order.is_done(pairs, offenders); ++pairs) {
     const Polyhedron a = any_body(random);
     const Polyhedron b = moved(random.below(8) ? any_body(random) : a, any_place(random));
     const Found found = judge(a, b, overlapping);
     if (!found.what) continue;
     ++offenders;
-    std::filesystem::create_directories(folder);
-    const std::string stem =
-        folder + "/seed_" + std::to_string(seed) + "_pair_" + std::to_string(pairs);
+    std::filesystem::create_directories(order.folder);
+    const std::string stem = order.stem(pairs);
     write_off(stem + "_a.off", found.a), write_off(stem + "_b.off", found.b);
     std::printf("%s: off by %.3g, kept as %s_a.off and _b.off\n", found.what, found.value,
                 stem.c_str());
   }
   std::printf("seed %llu: %ld pairs, %ld overlapping, %d offenders, %.0f s\n",
-              static_cast<unsigned long long>(seed), pairs, overlapping, offenders, elapsed());
+              static_cast<unsigned long long>(order.seed), pairs, overlapping, offenders,
+              order.elapsed());
   return offenders > 0;
 }
 
@@ -210,25 +203,5 @@ int fuzz(double seconds, long most, std::uint64_t seed, const std::string& folde
 }  // namespace trackbed::dem::test
 
 int main(int argc, char** argv) {
-  double seconds = 0;
-  long pairs = 0;
-  std::uint64_t seed = 1;
-  std::string folder = "results/fuzz";
-  for (int k = 1; k < argc; ++k) {
-    if (!std::strcmp(argv[k], "--seed") && k + 1 < argc)
-      seed = std::strtoull(argv[++k], nullptr, 10);
-    else if (!std::strcmp(argv[k], "--output") && k + 1 < argc)
-      folder = argv[++k];
-    else if (!std::strcmp(argv[k], "--pairs") && k + 1 < argc)
-      pairs = std::strtol(argv[++k], nullptr, 10);
-    else
-      seconds = std::strtod(argv[k], nullptr);
-  }
-  if (!(seconds > 0) && !(pairs > 0)) {
-    std::fprintf(stderr, "fuzz_pairs SECONDS|--pairs COUNT [--seed N] [--output DIR]: how long?\n");
-    return 2;
-  }
-  if (!(seconds > 0)) seconds = HUGE_VAL;
-  if (!(pairs > 0)) pairs = std::numeric_limits<long>::max();
-  return trackbed::dem::test::fuzz(seconds, pairs, seed, folder);
+  return trackbed::dem::test::fuzz_as_ordered(argc, argv, "fuzz_pairs", trackbed::dem::test::fuzz);
 }
