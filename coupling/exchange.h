@@ -12,7 +12,7 @@
 //                  pays half of it. Damped up to about n omega dt = 2, unstable beyond   < 1e-7
 //   iterated       the surface is moved until it lies where the force found there puts
 //                  it (Aitken's relaxation)                                             0
-//   lagged         where it was a step ago: what happens if nothing is predicted        1.8e-3 (W^2)
+//   lagged         where it was a step ago: what happens if nothing is predicted     1.8e-3 (W^2)
 #pragma once
 #include <string>
 #include <vector>

@@ -12,8 +12,9 @@
 // Geometric Numerical Integration, ch. XIII.2), so that
 //   - a constant force gives the exact static deflection, free vibration the exact frequency;
 //   - the predicted surface is where it goes: no transfer error in the exchange;
-//   - two masses on springs (tests/verification/fem_reduction_test.cc) do not grow at any ωΔt (a force taken linear over the step would
-//     shift the predicted place by Δf Δt²/6 after the fact, and damp).
+//   - two masses on springs (tests/verification/fem_reduction_test.cc) do not grow at any ωΔt (a
+//     force taken linear over the step would shift the predicted place by Δf Δt²/6 after the fact,
+//     and damp).
 // Modes with ωΔt > 1 only follow statically: their modal mass is raised to (ωΔt)², which leaves
 // flexibility, rigid motion and momentum as they are.
 //

@@ -8,7 +8,8 @@
 //              mass).
 //   condensed  the static answers to a unit force at every node of the contact surface (the space
 //              of Guyan 1965 and of Craig and Bampton's constraint modes, 1968), and the same
-//              normal modes: exact for every static load on the surface. For soft bodies under grains.
+//              normal modes: exact for every static load on the surface. For soft bodies under
+//              grains.
 //
 // Rigid motions are in the basis; momentum is kept. Mass and stiffness are those of the full body,
 // so the reduced body is stiffer, never softer, and its energy is the full one's.

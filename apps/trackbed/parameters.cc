@@ -152,8 +152,8 @@ void add_contact(Section s) {
   s.number("Tangential ratio", "0.25", "-", 0, 10, "tangential over normal stiffness (k_s/k_n)");
   s.choice("Round law", "hertz_mindlin", round_laws(),
            "of every contact with a sphere, clump or dilated grain; Contact modulus is its E*; "
-           "hertz_flat: faces of dilated grains answer by the area on which they meet, on deforming "
-           "surfaces as with hertz_mindlin");
+           "hertz_flat: faces of dilated grains answer by the area on which they meet, on "
+           "deforming surfaces as with hertz_mindlin");
   s.number("Restitution", "0.5", "-", 0.01, 1,
            "of round contacts, head on, by a dashpot; 1 = no dashpot");
   s.number("Poisson", "0.25", "-", 0, 0.49999,
@@ -305,8 +305,8 @@ void add_loading(Section s) {
   s.number("Push speed", "0.01", "m/s", 1e-6, 10, "of the actuator");
   s.number("Push distance", "0.005", "m", 1e-6, 1, "of the actuator");
   s.number("Push stiffness", "1e7", "N/m", 1e3, 1e12,
-           "of the actuator between its drive and the sleeper; lowered to what a light sleeper bears "
-           "at the run's time step");
+           "of the actuator between its drive and the sleeper; lowered to what a light sleeper "
+           "bears at the run's time step");
 }
 
 void add_grain_test(Section s) {

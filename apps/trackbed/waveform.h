@@ -5,8 +5,8 @@
 
 namespace trackbed::apps {
 
-/// Load [N] at time t [s] since the cycles began. "sine": least + (largest - least)(1 - cos 2πt/T)/2,
-/// which is also called haversine; "triangle": straight flanks with the same ends.
+/// Load [N] at time t [s] since the cycles began. "sine": least + (largest - least)(1 - cos
+/// 2πt/T)/2, which is also called haversine; "triangle": straight flanks with the same ends.
 inline double waveform_load(const std::string& waveform, double t, double period, double least,
                             double largest) {
   const double phase = t / period - std::floor(t / period);

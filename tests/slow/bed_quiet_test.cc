@@ -1,13 +1,13 @@
 // A million steps of a bed at rest: no creep, no heating, no energy from nowhere.
 //
-// With a local damping of 0.3. Without any, such a bed does not stay at rest: some contacts stand at
-// Coulomb's limit, and friction, which is no gradient of an energy, then feeds a vibration that
-// grows by a factor of 100 in amplitude every 0.145 s or so out of the weight's energy, until grains
-// slide. That is the model's flutter and no error of the steps: half the step gives about the same
-// growth, and the ledger closes with the square of the step while it grows (case flutters). With
-// 0.05 some beds rest and others do not (of five, two), which differs with the last bit of how they
-// were poured; with 0.3 all that were tried rest.
-// Torsional friction is on: a grain that stands on one point would spin for ever without.
+// With a local damping of 0.3. Without any, such a bed does not stay at rest: some contacts stand
+// at Coulomb's limit, and friction, which is no gradient of an energy, then feeds a vibration that
+// grows by a factor of 100 in amplitude every 0.145 s or so out of the weight's energy, until
+// grains slide. That is the model's flutter and no error of the steps: half the step gives about
+// the same growth, and the ledger closes with the square of the step while it grows (case
+// flutters). With 0.05 some beds rest and others do not (of five, two), which differs with the last
+// bit of how they were poured; with 0.3 all that were tried rest. Torsional friction is on: a grain
+// that stands on one point would spin for ever without.
 #include <gtest/gtest.h>
 
 #include "dem/grain/random.h"

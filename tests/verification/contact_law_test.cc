@@ -246,7 +246,8 @@ TEST(ClosedLoop, WorkOfBothLaws) {
   inner[0].x.x() = inner[3].x.x() = .1 - 1;
   EXPECT_NEAR(loop_work<StoredEnergyLaw>(box(1, 1, 1), box(1, 1, 1), inner, 40), 0, 1e-10 * stored);
 
-  // Depth x under Eq. 17 of Shao 2017: k sqrt(z)/2 (x1^2-x0^2)(sqrt y1-sqrt y0), 29 % of the stored energy.
+  // Depth x under Eq. 17 of Shao 2017: k sqrt(z)/2 (x1^2-x0^2)(sqrt y1-sqrt y0), 29 % of the stored
+  // energy.
   const double d0 = 1e-9, d1 = .01, length = .5;
   std::vector<Pose> seed;
   for (const auto& [d, y] :

@@ -232,7 +232,8 @@ TEST(ModalStructure, IsExactUnderAConstantForce) {
   EXPECT_NEAR(mean * mass * 1e12 / force, 1, 1e-2);
 }
 
-// Two masses on springs: masses 1 (grain, velocity Verlet) and 2, ground spring 3 on the second, contact spring
+// Two masses on springs: masses 1 (grain, velocity Verlet) and 2, ground spring 3 on the second,
+// contact spring
 // 4. No growth at any step: the energy after many steps is bounded.
 TEST(ModalStructure, TwoMassesDoNotGrow) {
   for (const double W : {0.1, 0.5, 1.}) {

@@ -230,8 +230,8 @@ TEST(Layers, ModulusGrowsWithDepth) {
   EXPECT_NEAR(-b.load_displacement(0)[2], exact, 1e-4 * exact);
 }
 
-// Free beam on a Winkler bed under a centre load (Hetenyi 1946: w_mid, w_end), as a body of cells: shear
-// and the load's width let it deviate from the thin beam by some per mille.
+// Free beam on a Winkler bed under a centre load (Hetenyi 1946: w_mid, w_end), as a body of cells:
+// shear and the load's width let it deviate from the thin beam by some per mille.
 TEST(Bed, BeamOnWinklerFoundation) {
   ElasticBodyParameters p;
   const double h = 0.1, width = 0.3, young = 5e6 * 12 / (width * h * h * h);

@@ -1,4 +1,5 @@
-// Dilated polyhedra: Steiner's volume and the exact inertia against Sun 2015 and against each other.
+// Dilated polyhedra: Steiner's volume and the exact inertia against Sun 2015 and against each
+// other.
 #include <gtest/gtest.h>
 
 #include "base/error.h"

@@ -33,8 +33,8 @@ struct Study {
 };
 
 /// The study's variants without jobs. `pairs`: "a:b". Empty `knobs` = all that matter in the scene.
-/// `effects`: those instead of knobs, `knobs` then names effects. Throws InputError: unknown knob, a knob that changes nothing
-/// in this scene, a pair of one knob.
+/// `effects`: those instead of knobs, `knobs` then names effects. Throws InputError: unknown knob,
+/// a knob that changes nothing in this scene, a pair of one knob.
 Study make_study(const std::string& scene, const std::vector<std::string>& set,
                  const std::vector<std::string>& knobs, const std::vector<std::string>& pairs,
                  bool effects, int seeds, const std::string& folder);

@@ -7,8 +7,8 @@
 
 namespace trackbed::apps {
 
-/// About Packing/Origin. Writes `folder`/packing.off, .vtu, .csv (with packing_shapes/), as `formats` name them; returns
-/// the files. Throws RunError when one cannot be written.
+/// About Packing/Origin. Writes `folder`/packing.off, .vtu, .csv (with packing_shapes/), as
+/// `formats` name them; returns the files. Throws RunError when one cannot be written.
 std::vector<std::string> export_packing(const Scene&, const std::string& kept,
                                         const std::vector<std::string>& formats,
                                         const std::string& folder);

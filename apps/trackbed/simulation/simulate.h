@@ -15,7 +15,8 @@ struct SimulationOptions {
   bool packing_only = false;
 };
 
-/// Writes all files of a run but the report (apps/trackbed/output_folder.cc lists them). Throws as run_stages.
+/// Writes all files of a run but the report (apps/trackbed/output_folder.cc lists them). Throws as
+/// run_stages.
 Ending simulate(const Scene&, const SimulationOptions&, Progress&);
 
 }  // namespace trackbed::apps
