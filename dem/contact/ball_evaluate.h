@@ -21,20 +21,22 @@ inline void find_overlaps(const Bodies& b, const ShapeTable& shapes, const StepC
   e.apart = read(b.x.data(), e.b) - read(b.x.data(), e.a);
   e.apart = e.apart + Eight3(image(e.apart.x, c.period.x()), image(e.apart.y, c.period.y()),
                              image(e.apart.z, c.period.z()));
-  double radius[2][8];
-  Vec3 centre[2][8];
-  for (int k = 0; k < 8; ++k) {
-    const int p = e.pair.at[k], i = e.a.at[k], j = e.b.at[k];
-    const Ball &u = shapes.ball(b.shape[i], pairs.part_a[p]),
-               &v = shapes.ball(b.shape[j], pairs.part_b[p]);
-    radius[0][k] = u.radius, radius[1][k] = v.radius;
-    if (!centred) centre[0][k] = b.R[i] * u.centre, centre[1][k] = b.R[j] * v.centre;
-  }
-  const Eight ra = Eight::load(radius[0]), rb = Eight::load(radius[1]);
+  const auto ball_a = [&](int k) -> const Ball& {
+    return shapes.ball(b.shape[e.a.at[k]], pairs.part_a[e.pair.at[k]]);
+  };
+  const auto ball_b = [&](int k) -> const Ball& {
+    return shapes.ball(b.shape[e.b.at[k]], pairs.part_b[e.pair.at[k]]);
+  };
+  const Eight ra = eight_of([&](int k) { return ball_a(k).radius; }),
+              rb = eight_of([&](int k) { return ball_b(k).radius; });
   Eight3 x(0, 0, 0), way = e.apart;  // a's ball; from it to b's
   if (!centred) {
-    x = load3(centre[0]);
-    way = e.apart + load3(centre[1]) - x;
+    Vec3 centre_a[8], centre_b[8];
+    for (int k = 0; k < 8; ++k)
+      centre_a[k] = b.R[e.a.at[k]] * ball_a(k).centre,
+      centre_b[k] = b.R[e.b.at[k]] * ball_b(k).centre;
+    x = load3(centre_a);
+    way = e.apart + load3(centre_b) - x;
   }
   const Eight distance = sqrt(squared_norm(way));
   e.overlap = ra + rb - distance;
@@ -46,8 +48,7 @@ inline void find_overlaps(const Bodies& b, const ShapeTable& shapes, const StepC
 template <class Law, bool friction>
 void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                     const StepContext& c, const std::vector<double>& travel, bool centred,
-                    Eightfold awake, Pairs& pairs) {
-  awake.complete();
+                    const Eightfold& awake, Pairs& pairs) {
   EightContacts e;
   e.pair = awake;
   e.a.of(pairs.a.data(), awake), e.b.of(pairs.b.data(), awake);
@@ -66,43 +67,70 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
         release_round(b, c, pairs, p);
       }
     }
-    if (rest.count > 0)
-      evaluate_balls<Law, friction>(b, shapes, materials, c, travel, centred, rest, pairs);
+    if (rest.count == 0) return;
+    rest.complete();
+    evaluate_balls<Law, friction>(b, shapes, materials, c, travel, centred, rest, pairs);
     return;
   }
   respond<Law, friction>(b, materials, c, e, pairs);
 }
 
-/// Bodies at b lie in no order: they are asked for before they are needed.
-[[gnu::always_inline]] inline void fetch_ball(const Bodies& b, const ShapeTable& shapes, int i) {
-  for (const Vec3* at : {&b.x[i], &b.v[i], &b.turn[i]}) fetch_lines(at, 1);
-  fetch_lines(&shapes.ball(b.shape[i], 0), 1);
+/// Eight pairs from p on and their bodies b, which lie in no order, are asked for before they are
+/// needed: these are more arrays than the processor follows by itself, and it follows none beyond
+/// a page.
+[[gnu::always_inline]] inline void fetch_balls(const Bodies& b, const ShapeTable& shapes,
+                                               const Pairs& pairs, int p) {
+  for (const auto* v : {&pairs.arm_a, &pairs.arm_b, &pairs.friction, &pairs.force, &pairs.axis})
+    fetch_lines(&(*v)[p], 3);
+  for (const auto* v : {&pairs.friction_stiffness, &pairs.viscous, &pairs.viscous_loss,
+                        &pairs.normal_force, &pairs.energy, &pairs.friction_energy,
+                        &pairs.friction_loss, &pairs.area, &pairs.depth, &pairs.stiffness})
+    fetch_lines(&(*v)[p], 1);
+  for (int k = p; k < p + 8; ++k) {
+    const int j = pairs.b[k];
+    fetch(b.x[j]), fetch(b.v[j]), fetch(b.turn[j]);
+    fetch(shapes.ball(b.shape[j], 0));
+  }
 }
-inline constexpr int kAhead = 20;  // pairs
+inline constexpr int kAhead = 16;        // pairs
+inline constexpr int kManyPairs = 4000;  // fewer stay in the processor's own cache
 
-/// All pairs of balls of one kind.
+/// All pairs of balls of one kind. Those that touch lie in a row, most of them: eight that all do
+/// are taken as they lie.
 template <class Law, bool friction>
 void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                          const StepContext& c, const std::vector<double>& travel, PairKind kind,
                          Pairs& pairs) {
   const int begin = pairs.begin(kind), end = pairs.end(kind);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
-  const bool centred = kind == PairKind::balls;
+  const bool centred = kind == PairKind::balls, many = end - begin > kManyPairs;
   const int threads = c.threads_for(end - begin);  // a pair takes no longer than a body
 #pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
   for (int s = 0; s < stretches; ++s) {
-    Eightfold awake;
-    const auto evaluate = [&] {
-      evaluate_balls<Law, friction>(b, shapes, materials, c, travel, centred, awake, pairs);
-      awake.count = 0;
+    const auto evaluate = [&](const Eightfold& e) {
+      evaluate_balls<Law, friction>(b, shapes, materials, c, travel, centred, e, pairs);
     };
-    for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {
-      if (p + kAhead < end) fetch_ball(b, shapes, pairs.b[p + kAhead]);
-      if (asleep(travel, pairs, p)) continue;
-      awake.add(p);
-      if (awake.count == 8) evaluate();
+    Eightfold awake;
+    const int first = begin + s * kStretch, last = std::min(end, first + kStretch);
+    for (int row = first; row < last; row += 8) {
+      const int ahead = row + kAhead;
+      if (many && ahead + 8 <= end && pairs.touching[ahead]) fetch_balls(b, shapes, pairs, ahead);
+      if (row + 8 <= last && all_are(&pairs.touching[row], 1)) {
+        evaluate(Eightfold::row(row, 8));
+        continue;
+      }
+      for (int p = row; p < std::min(last, row + 8); ++p) {
+        if (asleep(travel, pairs, p)) continue;
+        awake.add(p);
+        if (awake.count < 8) continue;
+        awake.complete();
+        evaluate(awake);
+        awake.count = 0;
+      }
     }
-    if (awake.count > 0) evaluate();
+    if (awake.count == 0) continue;
+    awake.complete();
+    evaluate(awake);
   }
 }
 

@@ -91,9 +91,7 @@ double Candidates::add_travel(const Bodies& b, const ShapeTable& shapes, const S
 #pragma omp parallel for schedule(static) reduction(max \
                                                     : most) num_threads(threads) if (threads > 1)
   for (int row = 0; row < n; row += 8) {
-    Eightfold e;
-    for (int i = row; i < std::min(n, row + 8); ++i) e.add(i);
-    e.complete();
+    const Eightfold e = Eightfold::row(row, std::min(8, n - row));
     const Eight step = sqrt(squared_norm(read(b.v.data(), e))),
                 turn = sqrt(squared_norm(read(b.turn.data(), e)));
     const Eight travel =

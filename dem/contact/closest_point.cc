@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "dem/contact/eight.h"
+
 namespace trackbed::dem {
 namespace {
 
@@ -43,26 +45,60 @@ bool closest_on_face(const ConvexView& v, int f, const Vec3& p, double height, d
   return true;
 }
 
+// Of p above eight planes from f on.
+Eight heights(const ConvexView& v, int f, const Vec3& p) {
+  return fma(p.x(), Eight::load(v.nx + f),
+             fma(p.y(), Eight::load(v.ny + f), p.z() * Eight::load(v.nz + f))) -
+         Eight::load(v.offset + f);
+}
+
+// The face p is highest above (or least deep below), and by how much.
+int highest_face(const ConvexView& v, const Vec3& p, double& most) {
+  int top = 0;
+  most = -HUGE_VAL;
+  if (v.planes_padded) {
+    for (int f = 0; f < v.faces; f += 8) {
+      const Eight h = heights(v, f, p);
+      const double here = largest(h);
+      if (here > most) most = here, top = f + __builtin_ctz(less_equal(here, h));
+    }
+    return top;
+  }
+  for (int f = 0; f < v.faces; ++f) {
+    const double h = v.nx[f] * p.x() + v.ny[f] * p.y() + v.nz[f] * p.z() - v.offset[f];
+    if (h > most) most = h, top = f;
+  }
+  return top;
+}
+
+// q, of face f's plane, lies below all others: within the face.
+bool below_others(const ConvexView& v, int face, const Vec3& q) {
+  if (!v.planes_padded) return false;  // not known
+  for (int f = 0; f < v.faces; f += 8) {
+    unsigned above = less(0, heights(v, f, q));
+    if (face / 8 == f / 8) above &= ~(1u << face % 8);
+    if (v.faces - f < 8) above &= (1u << (v.faces - f)) - 1;  // repeated ones
+    if (above != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ClosestPoint closest_point(const ConvexView& v, const Vec3& p) {
-  int top = 0;
-  double most = -HUGE_VAL;
+  double most;
+  const int top = highest_face(v, p, most);
+  const Vec3 n(v.nx[top], v.ny[top], v.nz[top]);
+  ClosestPoint out;
+  out.along = n;
+  out.point = p - most * n;
+  out.face = top;
+  out.dimension = most > 0 ? 2 : 3;
+  // Most often it is the face below.
+  if (!(most > 0) || below_others(v, top, out.point)) return out;
   const auto height = [&](int f) {
     return v.nx[f] * p.x() + v.ny[f] * p.y() + v.nz[f] * p.z() - v.offset[f];
   };
-  for (int f = 0; f < v.faces; ++f) {
-    const double h = height(f);
-    if (h > most) most = h, top = f;
-  }
-  ClosestPoint out;
-  if (!(most > 0)) {
-    out.along = Vec3(v.nx[top], v.ny[top], v.nz[top]);
-    out.point = p - most * out.along;
-    out.face = top;
-    out.dimension = 3;
-    return out;
-  }
   double best = HUGE_VAL;  // distance squared
   if (closest_on_face(v, top, p, most, best, out)) return out;
   for (int f = 0; f < v.faces; ++f) {

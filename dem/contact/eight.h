@@ -213,6 +213,21 @@ inline Eight pick(Eight a, const Places& p) {
 
 #endif
 
+/// f(0), f(1) ... f(7). Not by way of memory where that can be helped: a register is loaded late from
+/// what was stored piece by piece.
+template <class F>
+[[gnu::always_inline]] inline Eight eight_of(F&& f) {
+#ifdef TRACKBED_AVX512
+  return _mm512_setr_pd(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7));
+#elif defined(__AVX2__)
+  return {_mm256_setr_pd(f(0), f(1), f(2), f(3)), _mm256_setr_pd(f(4), f(5), f(6), f(7))};
+#else
+  double x[8];
+  for (int k = 0; k < 8; ++k) x[k] = f(k);
+  return Eight::load(x);
+#endif
+}
+
 // What formulas written once for one number and for eight need besides.
 inline double where_less(double a, double b, double yes, double no) { return a < b ? yes : no; }
 inline bool all_less(double a, double b) { return a < b; }

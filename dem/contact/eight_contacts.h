@@ -28,30 +28,29 @@ struct EightConstants {
 
 inline EightConstants constants_of(const Bodies& b, const PairMaterials& materials,
                                    const EightContacts& e) {
-  double mass_a[8], mass_b[8];
-  const PairMaterial* material[8];
-  bool same = true;
-  for (int k = 0; k < 8; ++k) {
-    const int i = e.a.at[k], j = e.b.at[k];
-    // 1/m = 1/m_a + 1/m_b; of a body that is held, m is the other's: half of twice that.
-    const bool a_held = b.freedom[i] == kFixed, b_held = b.freedom[j] == kFixed;
-    const double factor = a_held || b_held ? 2 : 1;
-    mass_a[k] = factor * b.mass[a_held ? j : i];
-    mass_b[k] = factor * b.mass[b_held ? i : j];
-    material[k] = &materials(b.material[i], b.material[j]);
-    same = same && material[k] == material[0];
+  unsigned held = 0;  // highest bit: some freedom is kFixed, zero
+  for (int k = 0; k < 8; ++k) held |= (b.freedom[e.a.at[k]] - 1u) | (b.freedom[e.b.at[k]] - 1u);
+  EightConstants c;
+  if (held >> 31) {
+    c.mass = eight_of([&](int k) { return contact_mass(b, e.a.at[k], e.b.at[k]); });
+  } else {
+    const Eight a = read(b.mass.data(), e.a), of_b = read(b.mass.data(), e.b);
+    c.mass = a * of_b / (a + of_b);
   }
+  const PairMaterial* of[8] = {&materials(b.material[e.a.at[0]], b.material[e.b.at[0]])};
+  bool same = true;
+  if (materials.materials() > 1)
+    for (int k = 1; k < 8; ++k) {
+      of[k] = &materials(b.material[e.a.at[k]], b.material[e.b.at[k]]);
+      same = same && of[k] == of[0];
+    }
   const auto eight = [&](double PairMaterial::*value) {
-    if (same) return Eight(material[0]->*value);
-    double each[8];
-    for (int k = 0; k < 8; ++k) each[k] = material[k]->*value;
-    return Eight::load(each);
+    return same ? Eight(of[0]->*value) : eight_of([&](int k) { return of[k]->*value; });
   };
-  const Eight ma = Eight::load(mass_a), mb = Eight::load(mass_b);
-  return {
-      ma * mb / (ma + mb),
-      {eight(&PairMaterial::modulus), eight(&PairMaterial::friction), eight(&PairMaterial::damping),
-       eight(&PairMaterial::stiffness), eight(&PairMaterial::round_ratio)}};
+  c.material = {eight(&PairMaterial::modulus), eight(&PairMaterial::friction),
+                eight(&PairMaterial::damping), eight(&PairMaterial::stiffness),
+                eight(&PairMaterial::round_ratio)};
+  return c;
 }
 
 /// Law, damping and friction over the step: advances the pairs' history, writes their forces, arms,

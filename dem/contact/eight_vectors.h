@@ -1,6 +1,7 @@
 // Eight vectors at a time, components apart, and how they get to and from arrays of Vec3; the few
 // operations by which formulas are written once for one contact (Vec3) and for eight (Eight3).
 #pragma once
+#include <cstring>
 #include <utility>
 
 #include "dem/contact/eight.h"
@@ -152,10 +153,21 @@ struct Eightfold {
   int count = 0;
   bool in_a_row = false;
   void add(int place) { at[count++] = place; }
+  /// `n` places from `first` on, up to eight.
+  static Eightfold row(int first, int n) {
+    Eightfold e;
+    for (int k = 0; k < 8; ++k) e.at[k] = first + (k < n ? k : 0);
+    e.count = n;
+    e.in_a_row = n == 8;
+    return e;
+  }
   /// Places that are stored at other places.
   void of(const int* places, const Eightfold& e) {
     count = e.count;
-    for (int k = 0; k < 8; ++k) at[k] = places[e.at[k]];
+    if (e.in_a_row)
+      std::memcpy(at, places + e.at[0], sizeof at);
+    else
+      for (int k = 0; k < 8; ++k) at[k] = places[e.at[k]];
   }
   void complete() {
     in_a_row = count == 8 && at[7] - at[0] == 7;  // ascending
@@ -163,14 +175,19 @@ struct Eightfold {
   }
 };
 
+/// Whether eight bytes from `p` on are all `value`.
+inline bool all_are(const std::uint8_t* p, std::uint8_t value) {
+  std::uint64_t eight;
+  std::memcpy(&eight, p, sizeof eight);
+  return eight == 0x0101010101010101u * value;
+}
+
 [[gnu::always_inline]] inline Eight3 read(const Vec3* v, const Eightfold& e) {
   return e.in_a_row ? load3(v + e.at[0]) : gather3(v, e.at);
 }
 template <class T>
 [[gnu::always_inline]] inline Eight read(const T* v, const Eightfold& e) {
-  double x[8];
-  for (int k = 0; k < 8; ++k) x[k] = v[e.at[k]];
-  return Eight::load(x);
+  return eight_of([&](int k) { return double(v[e.at[k]]); });
 }
 [[gnu::always_inline]] inline Eight read(const double* v, const Eightfold& e) {
   return e.in_a_row ? Eight::load(v + e.at[0]) : read<double>(v, e);

@@ -9,13 +9,6 @@
 
 namespace trackbed::dem {
 
-/// m of BallContactOf: a body that is held has no part in it.
-inline double contact_mass(const Bodies& b, int i, int j) {
-  return b.freedom[j] == kFixed   ? b.mass[i]
-         : b.freedom[i] == kFixed ? b.mass[j]
-                                  : b.mass[i] * b.mass[j] / (b.mass[i] + b.mass[j]);
-}
-
 /// Writes forces, energies and history of pair p. `contact` and n as of the deepest balls alone,
 /// `at` their point from a's centre, `apart` b's centre from a's. Damping: c = alpha sqrt(m
 /// F/delta) of the sum's elastic force F, as in the law of the balls.

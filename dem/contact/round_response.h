@@ -5,11 +5,19 @@
 
 #include "dem/contact/friction.h"
 #include "dem/contact/laws/ball_law.h"
+#include "dem/motion/bodies.h"
 
 namespace trackbed::dem {
 
 /// 1/(1/a + 1/b); 0 is flat.
 inline double mean_radius(double a, double b) { return b > 0 && a > 0 ? a * b / (a + b) : a + b; }
+
+/// m of BallContactOf: a body that is held has no part in it.
+inline double contact_mass(const Bodies& b, int i, int j) {
+  return b.freedom[j] == kFixed   ? b.mass[i]
+         : b.freedom[i] == kFixed ? b.mass[j]
+                                  : b.mass[i] * b.mass[j] / (b.mass[i] + b.mass[j]);
+}
 
 /// V: Vec3 for one contact, Eight3 for eight.
 template <class V>

@@ -26,15 +26,18 @@ T ordered_sum(int n, int threads, Term&& term) {
   return total;
 }
 
-/// Sum of an array, eight at a time.
+/// Sum of an array, by eight sums side by side.
 inline double ordered_sum(const double* x, int n, int threads) {
   constexpr int kFew = 20000;  // as quickly added as a thread is woken
-  return ordered_sum<double>((n + 7) / 8, n > kFew ? threads : 1, [&](int row) {
-    Eightfold e;
-    for (int i = 8 * row; i < std::min(n, 8 * row + 8); ++i) e.add(i);
-    e.complete();
-    return sum_first(read(x, e), e.count);
-  });
+  struct Sums {
+    Eight of = 0;
+    void operator+=(const Sums& o) { of = of + o.of; }
+  };
+  const Sums sums = ordered_sum<Sums>(n / 8, n > kFew ? threads : 1,
+                                      [&](int row) { return Sums{Eight::load(x + 8 * row)}; });
+  double sum = sum_first(sums.of, 8);
+  for (int i = n / 8 * 8; i < n; ++i) sum += x[i];
+  return sum;
 }
 
 }  // namespace trackbed::dem

@@ -2,6 +2,8 @@
 // with it.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "motion_scene.h"
 
 namespace trackbed::dem {
@@ -86,8 +88,19 @@ void run(Scene& s) {
   for (int k = 0; k < 1500; ++k) s.step();
 }
 
+// Whole numbers, whose sum has no rounding; rows of eight and what is left over, one block and many.
+TEST(Together, losses_are_summed_whole) {
+  for (const int n : {0, 1, 7, 8, 9, 64, 1000, 30001}) {
+    Pairs pairs;
+    pairs.resize(n);
+    std::iota(pairs.friction_loss.begin(), pairs.friction_loss.end(), 1.);
+    for (const int threads : {1, 2})
+      EXPECT_EQ(friction_loss(pairs, threads), .5 * n * (n + 1.)) << n;
+  }
+}
+
 TEST(Together, contacts_answer_as_they_do_alone) {
-  const int n = 21;
+  const int n = 60;  // rows of eight that touch, of spheres and of clumps, and some left over
   Scene all = scene();
   for (int k = 0; k < n; ++k) add_two(all, k);
   run(all);
