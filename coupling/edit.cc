@@ -4,16 +4,10 @@
 #include <numeric>
 #include <utility>
 
+#include "base/gather.h"
+
 namespace trackbed::coupling {
 namespace {
-
-template <class T>
-void gather(std::vector<T>& v, const std::vector<int>& order) {
-  std::vector<T> picked;
-  picked.reserve(order.size());
-  for (const int i : order) picked.push_back(v[i]);
-  v = std::move(picked);
-}
 
 void gather_bodies(dem::Bodies& b, const std::vector<int>& order) {
   gather(b.x, order), gather(b.q, order), gather(b.R, order), gather(b.v, order);

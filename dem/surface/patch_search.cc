@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/gather.h"
 #include "dem/contact/part_pairs.h"
 #include "dem/surface/patch_forces.h"
 
@@ -101,14 +102,6 @@ class TriangleFinder {
   double widest_ = 0;
   std::vector<std::pair<double, int>> sorted_;  // low side, triangle
 };
-
-template <class T>
-void gather(std::vector<T>& v, const std::vector<int>& order) {
-  std::vector<T> picked;
-  picked.reserve(order.size());
-  for (const int i : order) picked.push_back(v[i]);
-  v.swap(picked);
-}
 
 // Entry of a triangle's image in a contact of the last search, -1 if it is new.
 int find_entry(const PatchContacts& old, int contact, int triangle, const Vec3& shift) {
