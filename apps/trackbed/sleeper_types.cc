@@ -15,9 +15,10 @@ namespace {
 //   chinese_II   the new type II: 2.5 m long, 0.205 m high at the seats (0.175 m in the middle),
 //                0.3065 m at its widest, 283 kg
 //   chinese_III  2.6 m long, 0.23 m high at the seats (0.185 m in the middle), 353 kg
-// Commonly quoted and unchecked: the base of chinese_III, 0.32 m at the ends, and all of
-//   B70          B70 W-60: 2.6 m, 280 kg without fastenings, base 0.30 m, 0.21 m at the seats
-//   (DBS 918 143 names the type; size as meshes/sleeper_b70.geo)
+// From who makes it: B70 weighs 280 kg (weckenmann.de, 1 February 2018, on RAIL.ONE's plant in
+// Coswig); 2.60 m is the length of L. Moll's sleepers (system-bahn.net, "Schwelle zur Zukunft").
+// Commonly quoted and unchecked: the base of chinese_III, 0.32 m at the ends; of B70 the base,
+// 0.30 m, and the height at the seats, 0.21 m (size as meshes/sleeper_b70.geo).
 // Modulus: C60 of GB 50010, 36 GPa; B70's concrete is C50/60 (cubes of
 // 60 N/mm2: tkgftgleistechnik.de, Oberbauhandbuch, sheet 222-01), 37 GPa (EN 1992-1-1, Table 3.1).
 // Seats: 1.435 m gauge and half a rail head on each side, 1.507 m from rail to rail.
