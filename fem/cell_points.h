@@ -1,4 +1,4 @@
-// The quadrature points of all cells as plain arrays: gradients, weights, strains, forces.
+// The quadrature points of cells as plain arrays: gradients, weights, strains.
 #pragma once
 #include <vector>
 
@@ -19,7 +19,8 @@ struct CellPoints {
   std::vector<double> depth;             ///< (cell, point), under the highest point [m]
 };
 
-CellPoints cell_points(const Grid&, int order);
+/// Of the grid's cells with these numbers, ascending.
+CellPoints cell_points(const Grid&, int order, const std::vector<int>& cells);
 
 /// B of a point: strain component c from node a's direction d at 3 (nodes c + a) + d.
 void strain_matrix(const CellPoints&, int cell, int point, std::vector<double>& B);

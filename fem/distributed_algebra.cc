@@ -1,8 +1,10 @@
 #include "fem/distributed_algebra.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/error.h"
+#include "fem/near_null_space.h"
 #include "fem/session.h"
 #include "fem/supports.h"
 #include "fem/text.h"
@@ -30,6 +32,15 @@ DistributedVector::~DistributedVector() {
 void DistributedVector::reinit(const DistributedMatrices& m) {
   VecCreateMPI(MPI_COMM_WORLD, m.own_rows, m.unknowns.count, &v);
   VecSet(v, 0);
+}
+void DistributedVector::view(const DistributedMatrices& m, std::vector<double>& own) {
+  VecCreateMPIWithArray(MPI_COMM_WORLD, 1, m.own_rows, m.unknowns.count, own.data(), &v);
+}
+void DistributedVector::copy_own(std::vector<double>& to) const {
+  const PetscScalar* local = nullptr;
+  VecGetArrayRead(v, &local);
+  std::copy_n(local, to.size(), to.begin());
+  VecRestoreArrayRead(v, &local);
 }
 double DistributedVector::dot(const DistributedVector& x) const {
   PetscScalar sum = 0;
@@ -74,6 +85,20 @@ void DistributedVector::take(const DistributedMatrices& m, const std::vector<dou
   VecRestoreArray(v, &local);
 }
 
+void set_rigid_motions(const DistributedMatrices& m, Mat A) {
+  std::vector<::Vec> motions;
+  for (const auto& motion : rigid_motions(m.body, m.unknowns)) {
+    DistributedVector x;
+    x.reinit(m);
+    x.take(m, motion);
+    motions.push_back(x.v);
+    x.v = nullptr;
+  }
+  MatNullSpace near = near_null_space(MPI_COMM_WORLD, motions);
+  MatSetNearNullSpace(A, near);
+  MatNullSpaceDestroy(&near);
+}
+
 DistributedSolver::DistributedSolver(const DistributedMatrices& m, double mass_share,
                                      double damping_share, double stiffness_share,
                                      SolverKind kind) {
@@ -108,29 +133,7 @@ void DistributedSolver::set_up(const DistributedMatrices& m, Mat A, SolverKind k
     PCSetType(pc, PCCHOLESKY);
     PCFactorSetMatSolverType(pc, MATSOLVERMUMPS);
   } else {
-    std::vector<::Vec> modes;
-    for (const auto& motion : rigid_motions(m.body, m.unknowns)) {
-      DistributedVector x;
-      x.reinit(m);
-      x.take(m, motion);
-      for (::Vec before : modes) {  // orthonormal, as PETSc wants them
-        PetscScalar share = 0;
-        VecDot(x.v, before, &share);
-        VecAXPY(x.v, -share, before);
-      }
-      PetscReal size = 0;
-      VecNorm(x.v, NORM_2, &size);
-      if (!(size > 1e-10)) continue;
-      x.scale(1 / size);
-      modes.push_back(x.v);
-      x.v = nullptr;
-    }
-    MatNullSpace near = nullptr;
-    MatNullSpaceCreate(MPI_COMM_WORLD, PETSC_FALSE, static_cast<int>(modes.size()), modes.data(),
-                       &near);
-    MatSetNearNullSpace(A, near);
-    MatNullSpaceDestroy(&near);
-    for (::Vec& x : modes) VecDestroy(&x);
+    set_rigid_motions(m, A);
     KSPSetType(ksp_, KSPCG);
     KSPSetInitialGuessNonzero(ksp_, PETSC_TRUE);
     KSPSetTolerances(ksp_, 1e-10, 1e-300, PETSC_DEFAULT, 2000);

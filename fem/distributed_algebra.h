@@ -14,6 +14,9 @@ class DistributedVector {
   DistributedVector& operator=(const DistributedVector&) = delete;
   ~DistributedVector();
   void reinit(const DistributedMatrices&);
+  /// Of the same memory as this rank's values, by row, which must stay where they are.
+  void view(const DistributedMatrices&, std::vector<double>& own);
+  void copy_own(std::vector<double>& to) const;  ///< this rank's values
   void copy(const DistributedVector& x) { VecCopy(x.v, v); }
   void scale(double s) { VecScale(v, s); }
   void add_scaled(double s, const DistributedVector& x) { VecAXPY(v, s, x.v); }
@@ -27,6 +30,9 @@ class DistributedVector {
 
   ::Vec v = nullptr;
 };
+
+/// Tells multigrid the rigid motions of a matrix over the unknowns.
+void set_rigid_motions(const DistributedMatrices&, Mat);
 
 /// (mass_share M + damping_share C + stiffness_share K) x = b, set up once: MUMPS or conjugate
 /// gradients with multigrid.

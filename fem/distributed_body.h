@@ -1,6 +1,6 @@
-// A linear elastic body whose cells, matrices and motion are shared by the ranks of mpirun:
-// deal.II's distributed triangulation (p4est) says which rank owns which cell, each rank integrates
-// its own cells, PETSc holds the matrices by rows and solves. Rank 0 owns the grains: it is given
+// A body whose cells, matrices and motion are shared by the ranks of mpirun, linear elastic or of a
+// material with history: deal.II's distributed triangulation (p4est) says which rank owns which
+// cell, each rank integrates its own cells, PETSc holds the matrices by rows and solves. Rank 0 owns the grains: it is given
 // the motion of the surface nodes and gives the forces on them; nothing else crosses between ranks
 // in a step but what products and solves need. (The mesh itself is known to all ranks, as p4est's
 // coarse mesh is.)
@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "fem/elastic_body.h"
+#include "fem/materials/stress_model.h"
 
 namespace trackbed::fem {
 
@@ -21,8 +22,9 @@ using BuildTogether =
 
 class DistributedBody final : public Structure {
  public:
-  /// As ElasticBody, by all ranks together. \throws InputError as ElasticBody.
-  explicit DistributedBody(ElasticBodyParameters);
+  /// As ElasticBody or, with a stress model, as NonlinearBody, by all ranks together. \throws
+  /// InputError as they do.
+  explicit DistributedBody(ElasticBodyParameters, std::shared_ptr<const StressModel> = nullptr);
   ~DistributedBody() override;
 
   const SurfaceMesh& surface() const override;
@@ -42,7 +44,8 @@ class DistributedBody final : public Structure {
   int unknowns() const override;
   StructureEnergy energy() const override;
   /// The same for any number of ranks, and from run to run on several, to the solver's tolerance:
-  /// sums over ranks are added as messages arrive. Bitwise on one.
+  /// sums over ranks are added as messages arrive. Bitwise on one. A material's history is gathered
+  /// from the ranks that keep it.
   void save(std::vector<double>& state) const override;
   void load(const std::vector<double>& state) override;
   bool has_fields() const override { return true; }
@@ -50,14 +53,17 @@ class DistributedBody final : public Structure {
 
   int solver_iterations() const;           ///< of the last step's solve; 0 for a direct or no solve
   std::vector<int> rank_unknowns() const;  ///< that each rank owns
+  /// That each rank evaluates in a step, of a material with history; else none.
+  std::vector<int> rank_cells() const;
 
  private:
   friend void serve(const BuildTogether&);
+  void take_part(int task, double value);
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
 
-/// While one lives, make_elastic_body() makes bodies that the ranks share (if there are several).
+/// While one lives, the functions below make bodies that the ranks share (if there are several).
 class BuildingTogether {
  public:
   BuildingTogether();
@@ -67,6 +73,9 @@ class BuildingTogether {
 
 /// An ElasticBody, or a DistributedBody while BuildingTogether on several ranks.
 std::unique_ptr<Structure> make_elastic_body(ElasticBodyParameters);
+/// A NonlinearBody, or the same.
+std::unique_ptr<Structure> make_body_with_history(ElasticBodyParameters,
+                                                  std::shared_ptr<const StressModel>);
 
 /// For ranks other than 0: builds bodies when rank 0 calls ask_to_build(), does its share of what
 /// rank 0 does with them, destroys them when rank 0 does, until release_ranks().

@@ -56,7 +56,7 @@ DistributedMatrices::DistributedMatrices(ElasticBodyParameters given)
   held = free_motion(body, unknowns, p.beds).empty();
   lumped = lumped_mass(p, body, unknowns);
   damped = damps(p);
-  const std::vector<int> owner_of_cell = partition(grid);
+  owner_of_cell = partition(grid);
   const int n = body.nodes_per_cell, size = ranks();
   std::vector<int> owner(unknowns.count, size);
   for (std::size_t c = 0; c < owner_of_cell.size(); ++c)
@@ -71,8 +71,7 @@ DistributedMatrices::DistributedMatrices(ElasticBodyParameters given)
   row.resize(unknowns.count);
   for (int i = 0; i < unknowns.count; ++i) row[i] = next[owner[i]]++;
   gravity.reinit(*this);
-  assemble(owner_of_cell);
-  if (lumped) omega = largest_root(stiffness);
+  assemble();
 }
 
 DistributedMatrices::~DistributedMatrices() {
@@ -86,7 +85,7 @@ DistributedMatrices::~DistributedMatrices() {
   VecDestroy(&diagonal);
 }
 
-void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
+void DistributedMatrices::assemble() {
   const int n = body.nodes_per_cell, count = unknowns.count;
   // A node's neighbours: 27 nodes, 125 for order 2.
   const int most = std::min(count, p.order == 1 ? 81 : 375);
@@ -123,6 +122,7 @@ void DistributedMatrices::assemble(const std::vector<int>& owner_of_cell) {
       }
     const bool own_cell = owner_of_cell[c] == rank();
     if (!any && !own_cell) {
+      element.pass(cell);
       ++c;
       continue;
     }

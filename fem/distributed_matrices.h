@@ -31,7 +31,7 @@ struct DistributedMatrices {
   std::vector<double> node_mass;                  ///< on all ranks [kg]
   std::unique_ptr<DistributedVector> gravity_force;
   DistributedVector& gravity;
-  double omega = 0;  ///< largest frequency, 2 % safe, for steps without a solve; 0 if not lumped
+  std::vector<int> owner_of_cell;  ///< rank
 
   explicit DistributedMatrices(ElasticBodyParameters);
   ~DistributedMatrices();
@@ -50,11 +50,11 @@ struct DistributedMatrices {
   double mass() const;
   double least_mass(const std::vector<int>& nodes) const;
   std::vector<Vec> at_nodes(const std::vector<double>& unknowns_of_all) const;
+  int own_row(int unknown) const;  ///< -1: another rank's, or held
 
  private:
-  void assemble(const std::vector<int>& owner_of_cell);
+  void assemble();
   void add_beds(const std::vector<std::array<double, 3>>& elastic);
-  int own_row(int unknown) const;  ///< -1: another rank's, or held
 };
 
 }  // namespace trackbed::fem

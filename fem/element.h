@@ -23,6 +23,9 @@ class ElementIntegrals {
 
   /// Fills stiffness (3n x 3n, index 3 node + direction) and mass (n x n).
   void compute(const Cell&);
+  /// Goes past a cell. deal.II takes over from the cell before what it can: only who visits all
+  /// cells gets the same bits for each.
+  void pass(const Cell& cell) { values_.reinit(cell); }
   dealii::FullMatrix<double> stiffness, mass;
 
   /// Mean E, ν, ρ of the points of the last cell computed.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fem/near_null_space.h"
 #include "fem/session.h"
 #include "fem/text.h"
 
@@ -119,38 +120,6 @@ struct LinearSolver::Krylov {
 namespace {
 
 constexpr int kLargestDirect = 60000;  // unknowns
-
-// Orthonormal, as PETSc wants them; motions that supports leave nothing of are dropped.
-MatNullSpace near_null_space(const std::vector<std::vector<double>>& rigid) {
-  std::vector<std::vector<double>> kept;
-  for (std::vector<double> m : rigid) {
-    const double size = std::sqrt(dot(m, m));
-    for (int pass = 0; pass < 2; ++pass)
-      for (const auto& k : kept) {
-        const double share = dot(k, m);
-        for (std::size_t i = 0; i < m.size(); ++i) m[i] -= share * k[i];
-      }
-    const double rest = std::sqrt(dot(m, m));
-    if (!(rest > 1e-8 * size)) continue;
-    for (double& c : m) c /= rest;
-    kept.push_back(std::move(m));
-  }
-  std::vector<::Vec> vectors;
-  for (const auto& k : kept) {
-    ::Vec v = nullptr;
-    VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(k.size()), &v);
-    PetscScalar* to = nullptr;
-    VecGetArray(v, &to);
-    std::copy(k.begin(), k.end(), to);
-    VecRestoreArray(v, &to);
-    vectors.push_back(v);
-  }
-  MatNullSpace space = nullptr;
-  MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(vectors.size()),
-                     vectors.data(), &space);
-  for (::Vec& v : vectors) VecDestroy(&v);
-  return space;
-}
 
 }  // namespace
 

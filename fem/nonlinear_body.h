@@ -1,10 +1,7 @@
 // A body of hexahedra whose stress a StressModel gives: plasticity, history, in-situ stress.
 //
-//   M a + f_int(u, history) − f_int(0, 0) = f,   f_int = ∫Bᵀσ dV
-//
-// Displacements count from the state in situ, whose stresses balance the soil's own weight. In
-// time: velocity Verlet without a solve where Δt ≤ 0.9·2/ω_max of the elastic body (lumped mass),
-// else generalised-α or Newmark with Newton's iteration on the consistent tangent.
+// Displacements count from the state in situ, whose stresses balance the soil's own weight; how it
+// moves: fem/history_motion.h. On one process; DistributedBody shares such a body by ranks.
 #pragma once
 #include <memory>
 
@@ -15,8 +12,8 @@ namespace trackbed::fem {
 
 class NonlinearBody final : public Structure {
  public:
-  /// Mesh, supports, contact surface and time integration as for an ElasticBody; materials, loads,
-  /// beds and gravity are not used. \throws InputError as ElasticBody.
+  /// Mesh, supports, contact surface, solver and time integration as for an ElasticBody; materials,
+  /// loads and gravity are not used, beds are refused. \throws InputError as ElasticBody.
   NonlinearBody(ElasticBodyParameters, std::shared_ptr<const StressModel>);
   ~NonlinearBody() override;
 
@@ -33,6 +30,8 @@ class NonlinearBody final : public Structure {
   double mass() const override;
   double least_surface_mass() const override;
   double largest_frequency() const override;
+  /// By nodes; and ω_max² more where it goes without a solve.
+  double contact_bound(const std::vector<NodeSpring>&) const override;
   int unknowns() const override;
   StructureEnergy energy() const override;
   /// Motion, history of all points, totals.

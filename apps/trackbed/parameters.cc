@@ -356,7 +356,8 @@ void add_numerics(Section s) {
       "time integration of finite elements: automatic is explicit where mass is lumped and the "
       "step allows, else generalised_alpha; reduced ones are exact in their modes");
   s.choice("Linear solver", "automatic", linear_solvers(),
-           "of finite elements: automatic is direct up to 60000 unknowns, else cg_gamg");
+           "of finite elements: automatic is direct up to 60000 unknowns, else cg_gamg; materials "
+           "with history take GMRES for cg");
   s.choice("Exchange", "predicted", exchange_schedules(),
            "of forces and motion between grains and structures: predicted, one force on both sides "
            "at each step; explicit, structures without a solve; several_steps; iterated; lagged, "

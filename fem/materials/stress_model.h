@@ -2,7 +2,7 @@
 // time. Small strains, tension positive, stresses in pascal; components xx, yy, zz, yz, xz, xy,
 // shear strains as angles (twice the tensor's).
 //
-// The body (fem/nonlinear_body.h) keeps the history of every point, gives it to evaluate() at the
+// The body (fem/history_cells.h) keeps the history of every point, gives it to evaluate() at the
 // start of a step, takes it back at its end, and puts it into checkpoints: a model only says how
 // many numbers a point remembers.
 #pragma once

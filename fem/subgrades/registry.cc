@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "fem/distributed_body.h"
-#include "fem/nonlinear_body.h"
 #include "fem/text.h"
 
 namespace trackbed::fem {
@@ -84,7 +83,8 @@ std::unique_ptr<Structure> body_with_history(const SubgradeSite& site, const Val
   const double depth = number(values, "Depth");
   p.mesh.layers = {{depth, cells_over(site, depth), 0}};
   p.mesh.corner[2] -= depth;
-  return std::make_unique<NonlinearBody>(std::move(p), std::move(stress));
+  p.solver = site.solver;
+  return make_body_with_history(std::move(p), std::move(stress));
 }
 
 }  // namespace

@@ -1,14 +1,17 @@
 // A structure's implicit step shared by ranks: one line of the scaling table.
 //   for n in 1 2 4; do mpirun --oversubscribe -n $n build/tests/distributed_benchmark 20 cg_gamg;
 //   done
-// prints ranks, unknowns, unknowns of each rank, iterations of a solve, milliseconds a step and for
-// the set-up. A cube of 20^3 cells if nothing is said.
+// prints ranks, unknowns, unknowns of each rank (of a material with history the cells that each
+// evaluates, too), iterations of a solve, milliseconds a step and for
+// the set-up. A cube of 20^3 cells if nothing is said. A third word names a material with history,
+// a fourth its step [s]: 1e-3 by Newton's iteration, 1e-5 without a solve.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
 #include "fem/distributed_body.h"
 #include "fem/session.h"
+#include "fem/subgrades/registry.h"
 
 using namespace trackbed::fem;
 
@@ -27,7 +30,8 @@ int main(int argc, char** argv) {
   p.solver = solver_of(argc > 2 ? argv[2] : "cg_gamg");
   const auto build = [&](int, double) {
     std::vector<std::unique_ptr<Structure>> bodies;
-    bodies.push_back(std::make_unique<DistributedBody>(p));
+    bodies.push_back(
+        std::make_unique<DistributedBody>(p, argc > 3 ? stress_model(argv[3], {}) : nullptr));
     return bodies;
   };
   if (rank() > 0) {
@@ -43,7 +47,7 @@ int main(int argc, char** argv) {
     ask_to_build(0, 0);
     auto bodies = build(0, 0);
     auto& body = static_cast<DistributedBody&>(*bodies[0]);
-    body.set_step(1e-3);
+    body.set_step(argc > 4 ? std::atof(argv[4]) : 1e-3);
     const double set_up = milliseconds(start);
     std::vector<Vec> force(body.surface().nodes.size(), Vec{0, 0, -10}), u, v;
     body.advance(force);
@@ -59,6 +63,7 @@ int main(int argc, char** argv) {
     const double step = milliseconds(start) / steps;
     std::printf("ranks %d, unknowns %d (", ranks(), body.unknowns());
     for (const int own : body.rank_unknowns()) std::printf(" %d", own);
+    for (const int cells : body.rank_cells()) std::printf(" / %d cells", cells);
     std::printf(" ), iterations %.1f, step %.1f ms, set-up %.0f ms\n",
                 static_cast<double>(iterations) / steps, step, set_up);
   }

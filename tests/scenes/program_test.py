@@ -380,22 +380,33 @@ class Exchange(SceneTest):
 
 class Ranks(SceneTest):
     def test_mpirun(self):
-        """Two ranks share the elastic bodies; only one prints and writes."""
-        alone = self.run_scene("alone", change=SHORT)
-        sets = [f"--set={k}={v}" for k, v in {**SHORT, "Packing/Folder": "packings"}.items()]
+        """Two ranks share the bodies, elastic or of soil that yields; only one prints and writes."""
         mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n", "2"]
         root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
         def run(*arguments):
             return subprocess.run([*mpirun, PROGRAM, "run", "tiny.prm", "--threads", "1", *arguments],
                                   cwd=self.folder, text=True, capture_output=True, env={**os.environ, **root})
-        done = run("--output", "shared", *sets)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout.count("results in"), 1)
-        self.assert_sound(self.folder / "shared")
-        for one, other in zip(rows(alone / "cycles.csv"), rows(self.folder / "shared" / "cycles.csv")):
-            for key in ("u_max_m", "settlement_m"):
-                self.assertAlmostEqual(float(one[key]), float(other[key]), delta=1e-5 * abs(float(one[key])))
+        for model, more in (("layered_elastic", {}),
+                            ("drucker_prager", {"Depth": "0.1", "Cohesion": "200", "Dilation angle": "5"})):
+            with self.subTest(model):
+                change = {**SHORT, "Subgrade/Model": model,
+                          **{f"Subgrade/{model}/{key}": value for key, value in more.items()}}
+                alone, shared = self.run_scene(f"{model}_alone", change=change), self.folder / model
+                sets = [f"--set={k}={v}" for k, v in {**change, "Packing/Folder": "packings"}.items()]
+                done = run("--output", model, *sets)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.stdout.count("results in"), 1)
+                self.assert_sound(shared)
+                for file, keys in (("cycles.csv", ("u_max_m", "settlement_m")),
+                                   ("energy.csv", ("structure_J", "dissipated_structure_plastic_J"))):
+                    self.assertEqual(len(rows(alone / file)), len(rows(shared / file)))
+                    for one, other in zip(rows(alone / file), rows(shared / file)):
+                        for key in keys:
+                            self.assertAlmostEqual(float(one[key]), float(other[key]),
+                                                   delta=1e-5 * abs(float(one[key])))
+                yielded = float(rows(shared / "energy.csv")[-1]["dissipated_structure_plastic_J"])
+                self.assertEqual(yielded > 0, model == "drucker_prager")
         wrong = run("--output", "wrong", "--set=Numerics/Margin=7")
         self.assertEqual(wrong.returncode, 2)
         self.assertEqual(wrong.stderr.count("is out of range"), 1, wrong.stderr)

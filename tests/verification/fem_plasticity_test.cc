@@ -248,6 +248,19 @@ TEST(Body, NewtonConvergesQuadraticallyUnderAStrip) {
   EXPECT_GT(order, 1.6);
 }
 
+TEST(Body, MultigridGivesTheDirectAnswer) {
+  NonlinearBody *direct = nullptr, *multigrid = nullptr;
+  SubgradeSite s = site(1, .2, .1);
+  const auto a = soil(s, with(kSoil, "Dilation angle", "5"), direct);
+  s.solver = SolverKind::cg_gamg;
+  const auto b = soil(s, with(kSoil, "Dilation angle", "5"), multigrid);
+  for (NonlinearBody* body : {direct, multigrid})
+    body->solve_static(strip(body->surface(), .2, 8 * kCohesion), 2);
+  const double u = direct->displacement_at({0, 0, 0})[2];
+  EXPECT_LT(u, -1e-5);
+  EXPECT_NEAR(multigrid->displacement_at({0, 0, 0})[2], u, 1e-7 * std::abs(u));
+}
+
 // Unloaded soil keeps a settlement; a saved state goes on bit by bit.
 TEST(Body, KeepsWhatItYieldedAndGoesOnBitByBit) {
   NonlinearBody *body = nullptr, *other = nullptr;
