@@ -47,3 +47,12 @@ foreach(ranks 1 2 4)
     PROPERTIES LABELS verification ENVIRONMENT
                "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1" TIMEOUT 200)
 endforeach()
+# An error of a user's model on one rank ends the run, it does not hang.
+foreach(faulty 0 1)
+  add_test(NAME verification/distributed_fault_${faulty}
+           COMMAND ${mpirun} -n 2 $<TARGET_FILE:fem_distributed_test> fault ${faulty})
+  set_tests_properties(
+    verification/distributed_fault_${faulty}
+    PROPERTIES LABELS verification PASS_REGULAR_EXPRESSION "trackbed: .*my mistake" ENVIRONMENT
+               "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1" TIMEOUT 60)
+endforeach()

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -309,8 +310,52 @@ TEST(Refused, ABodyThatIsNotHeldAndStatic) {
 
 }  // namespace
 
+namespace {
+
+// A user's model with an error that one rank alone meets.
+class Faulty final : public StressModel {
+ public:
+  explicit Faulty(int faulty_rank) : faulty_rank_(faulty_rank) {}
+  int history() const override { return sound_->history(); }
+  double density() const override { return sound_->density(); }
+  void evaluate(const StressInputs& in, StressOutputs& out) const override {
+    if (rank() == faulty_rank_ && in.strain[0] != Voigt{}) throw std::runtime_error("my mistake");
+    sound_->evaluate(in, out);
+  }
+
+ private:
+  int faulty_rank_;
+  std::shared_ptr<const StressModel> sound_ = soil(kYielding);
+};
+
+std::vector<std::unique_ptr<Structure>> build_faulty(int faulty_rank, double) {
+  std::vector<std::unique_ptr<Structure>> bodies;
+  bodies.push_back(std::make_unique<DistributedBody>(parameters(kYielding),
+                                                     std::make_shared<Faulty>(faulty_rank)));
+  return bodies;
+}
+
+// Does not come back, on any rank.
+void meet_the_fault(int faulty_rank) {
+  if (rank() > 0) return serve(build_faulty);
+  ask_to_build(faulty_rank, 0);
+  const auto bodies = build_faulty(faulty_rank, 0);
+  bodies[0]->set_step(kSteps[kYielding]);
+  step(*bodies[0], kYielding, 0, 30);
+}
+
+}  // namespace
+
+// With "fault RANK": a run that an error on that rank ends.
 int main(int argc, char** argv) {
   start_session();
+  if (argc == 3 && argv[1] == std::string("fault")) {
+    try {
+      meet_the_fault(std::atoi(argv[2]));
+    } catch (const std::exception&) {  // said too late: the others wait
+    }
+    return 0;
+  }
   if (rank() > 0) {
     serve(build);
     return 0;
