@@ -75,9 +75,18 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
   respond<Law, friction>(b, materials, c, e, pairs);
 }
 
-/// Eight pairs from p on and their bodies b, which lie in no order, are asked for before they are
-/// needed: these are more arrays than the processor follows by itself, and it follows none beyond
-/// a page.
+// What pairs need is asked for before it is needed: these are more arrays than the processor follows
+// by itself, and it follows none beyond a page. Bodies b lie in no order. First which they are, then
+// their shapes' numbers, then the rest: each reads what the one before asked for.
+inline constexpr int kAhead = 16;        // pairs
+inline constexpr int kManyPairs = 4000;  // fewer stay in the processor's own cache
+
+[[gnu::always_inline]] inline void fetch_keys(const Pairs& pairs, int p) {
+  for (const auto* v : {&pairs.a, &pairs.b, &pairs.part_a, &pairs.part_b}) fetch_lines(&(*v)[p], 1);
+}
+[[gnu::always_inline]] inline void fetch_shapes_of(const Bodies& b, const Pairs& pairs, int p) {
+  for (int k = p; k < p + 8; ++k) fetch_lines(&b.shape[pairs.b[k]], 1);
+}
 [[gnu::always_inline]] inline void fetch_balls(const Bodies& b, const ShapeTable& shapes,
                                                const Pairs& pairs, int p) {
   for (const auto* v : {&pairs.arm_a, &pairs.arm_b, &pairs.friction, &pairs.force, &pairs.axis})
@@ -89,11 +98,18 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
   for (int k = p; k < p + 8; ++k) {
     const int j = pairs.b[k];
     fetch(b.x[j]), fetch(b.v[j]), fetch(b.turn[j]);
-    fetch(shapes.ball(b.shape[j], 0));
+    fetch_lines(&b.mass[j], 1), fetch_lines(&b.material[j], 1), fetch_lines(&b.freedom[j], 1);
+    fetch_lines(&shapes.ball(b.shape[j], 0), 1);
   }
 }
-inline constexpr int kAhead = 16;        // pairs
-inline constexpr int kManyPairs = 4000;  // fewer stay in the processor's own cache
+/// At row p of eight; the last row of all begins before `end`.
+[[gnu::always_inline]] inline void fetch_ahead(const Bodies& b, const ShapeTable& shapes,
+                                               const Pairs& pairs, int p, int end) {
+  if (p + 3 * kAhead + 8 > end || !pairs.touching[p + kAhead]) return;
+  fetch_keys(pairs, p + 3 * kAhead);
+  fetch_shapes_of(b, pairs, p + 2 * kAhead);
+  fetch_balls(b, shapes, pairs, p + kAhead);
+}
 
 /// All pairs of balls of one kind. Those that touch lie in a row, most of them: eight that all do
 /// are taken as they lie.
@@ -113,8 +129,7 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
     Eightfold awake;
     const int first = begin + s * kStretch, last = std::min(end, first + kStretch);
     for (int row = first; row < last; row += 8) {
-      const int ahead = row + kAhead;
-      if (many && ahead + 8 <= end && pairs.touching[ahead]) fetch_balls(b, shapes, pairs, ahead);
+      if (many) fetch_ahead(b, shapes, pairs, row, end);
       if (row + 8 <= last && all_are(&pairs.touching[row], 1)) {
         evaluate(Eightfold::row(row, 8));
         continue;

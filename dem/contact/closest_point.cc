@@ -85,20 +85,30 @@ bool below_others(const ConvexView& v, int face, const Vec3& q) {
 
 }  // namespace
 
-ClosestPoint closest_point(const ConvexView& v, const Vec3& p) {
-  double most;
-  const int top = highest_face(v, p, most);
-  const Vec3 n(v.nx[top], v.ny[top], v.nz[top]);
-  ClosestPoint out;
-  out.along = n;
-  out.point = p - most * n;
-  out.face = top;
-  out.dimension = most > 0 ? 2 : 3;
-  // Most often it is the face below.
-  if (!(most > 0) || below_others(v, top, out.point)) return out;
+ClosestPoint closest_point(const ConvexView& v, const Vec3& p, int likely) {
   const auto height = [&](int f) {
     return v.nx[f] * p.x() + v.ny[f] * p.y() + v.nz[f] * p.z() - v.offset[f];
   };
+  const auto below = [&](int f, double h) {
+    ClosestPoint c;
+    c.along = Vec3(v.nx[f], v.ny[f], v.nz[f]);
+    c.point = p - h * c.along;
+    c.face = f;
+    c.dimension = h > 0 ? 2 : 3;
+    return c;
+  };
+  // A face that p is straight above is the nearest, whichever was tried.
+  if (likely >= 0) {
+    const double h = height(likely);
+    if (h > 0) {
+      const ClosestPoint c = below(likely, h);
+      if (below_others(v, likely, c.point)) return c;
+    }
+  }
+  double most;
+  const int top = highest_face(v, p, most);
+  ClosestPoint out = below(top, most);
+  if (!(most > 0) || below_others(v, top, out.point)) return out;
   double best = HUGE_VAL;  // distance squared
   if (closest_on_face(v, top, p, most, best, out)) return out;
   for (int f = 0; f < v.faces; ++f) {

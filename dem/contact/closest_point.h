@@ -14,8 +14,8 @@ struct ClosestPoint {
   Vec3 along;     ///< unit normal of the face (2, 3), unit direction of the edge (1)
 };
 
-/// In the polyhedron's own frame [m].
-ClosestPoint closest_point(const ConvexView&, const Vec3& p);
+/// In the polyhedron's own frame [m]. `likely`: a face to try first, -1 = none; with it as without.
+ClosestPoint closest_point(const ConvexView&, const Vec3& p, int likely = -1);
 
 /// Of a triangle, with the weights of its corners.
 Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,

@@ -129,19 +129,21 @@ DeepestBalls deep(const PartView& a, const Mat3& Ra, const PartView& b, const Po
 
 }  // namespace
 
-DeepestBalls deepest_balls(const Vec3& centre, double r, const PartView& b, const Pose& pose) {
+DeepestBalls deepest_balls(const Vec3& centre, double r, const PartView& b, const Pose& pose,
+                           int& face) {
   DeepestBalls d;
   d.x = centre;
   d.ra = r;
   const Vec3 p = pose.R.transpose() * (centre - pose.x);
-  ClosestPoint c = closest_point(b.core, p);
+  ClosestPoint c = closest_point(b.core, p, face - 1);
   if (b.crown > 0)  // towards the centre of b by the crown
     for (int k = 0; k < 8 && c.dimension != 3; ++k) {
       const Vec3 was = c.point;
       const double e = b.crown * (p - c.point).norm();
-      c = closest_point(b.core, p / (1 + e));
+      c = closest_point(b.core, p / (1 + e), c.face);
       if ((c.point - was).squaredNorm() <= 1e-24 * p.squaredNorm()) break;
     }
+  face = c.dimension == 2 ? c.face + 1 : 0;
   d.rb = radius_at(b, c.point);
   if (c.dimension == 3) {
     const Vec3 normal = pose.R * c.along;

@@ -34,8 +34,10 @@ struct DeepestBalls {
 };
 
 /// A point and a polyhedron, plain or dilated. `centre` is the point, radius r; `pose` of b, its
-/// place relative to a's centre.
-DeepestBalls deepest_balls(const Vec3& centre, double r, const PartView& b, const Pose& pose);
+/// place relative to a's centre. `face`: of b that the contact was on last, 1 the first, 0 = not
+/// known; that it is on now.
+DeepestBalls deepest_balls(const Vec3& centre, double r, const PartView& b, const Pose& pose,
+                           int& face);
 
 /// Two polyhedra, at least one of them dilated; Ra orientation of a. `start` (about a's centre,
 /// world axes) is where the contact was last, `axis` a direction from a to b for cores that overlap

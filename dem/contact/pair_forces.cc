@@ -38,7 +38,7 @@ namespace {
 }  // namespace
 
 void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
-  constexpr int kAhead = 24, kManyEnds = 8000;  // fewer stay in the processor's own cache
+  constexpr int kAhead = 64, kManyEnds = 8000;  // fewer stay in the processor's own cache
   const int threads = c.threads_for(b.size()), ends = static_cast<int>(pairs.incident.size());
   const bool many = ends > kManyEnds;
   // Pairs of balls have no couple unless something resists their turning.

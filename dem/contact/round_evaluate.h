@@ -18,7 +18,7 @@ struct PointCoreGeometry {
   static DeepestBalls find(const Bodies& bodies, const PartView& a, const PartView& b,
                            const Vec3& apart, Pairs& pairs, int p) {
     return deepest_balls(bodies.R[pairs.a[p]] * a.centre, a.radius, b,
-                         {bodies.R[pairs.b[p]], apart});
+                         {bodies.R[pairs.b[p]], apart}, pairs.faces_b[p]);
   }
 };
 

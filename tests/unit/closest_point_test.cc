@@ -21,6 +21,10 @@ double highest(const ConvexView& v, const Vec3& p) {
 // Returns the dimension of what the point lies on.
 int expect_nearest(const ConvexView& v, const Vec3& p) {
   const ClosestPoint c = closest_point(v, p);
+  for (int likely = 0; likely < v.faces; ++likely) {
+    const ClosestPoint again = closest_point(v, p, likely);
+    EXPECT_LT((again.point - c.point).norm(), 1e-14 * (v.radius + p.norm()));
+  }
   const double size = v.radius + p.norm();
   const Vec3 n(v.nx[c.face], v.ny[c.face], v.nz[c.face]);
   EXPECT_NEAR(n.dot(c.point), v.offset[c.face], 1e-14 * size);
