@@ -23,6 +23,17 @@ namespace trackbed::fem {
 
 inline constexpr double kMustBeSet = std::numeric_limits<double>::quiet_NaN();
 
+/// Constants of Rayleigh damping, C = α_M M + α_K K.
+struct RayleighDamping {
+  double mass = 0;       ///< α_M [1/s] ≥ 0
+  double stiffness = 0;  ///< α_K [s] ≥ 0
+};
+
+/// Those that damp modes of the angular frequencies `low` < `high` [rad/s] by the share `ratio` of
+/// critical damping, ξ = (α_M/ω + α_K ω)/2; modes between them less, by ratio·2√(low high)/(low +
+/// high) at least, others more.
+RayleighDamping rayleigh_damping(double ratio, double low, double high);
+
 /// One material of a body. `model`, when given, replaces E, ν, ρ.
 struct Material {
   std::string name;

@@ -17,6 +17,10 @@ double highest(const Grid& grid) {
 
 }  // namespace
 
+RayleighDamping rayleigh_damping(double ratio, double low, double high) {
+  return {2 * ratio * low * high / (low + high), 2 * ratio / (low + high)};
+}
+
 std::vector<std::shared_ptr<const MaterialModel>> models_of(const ElasticBodyParameters& p) {
   if (p.materials.empty()) throw InputError(p.name + ": no material given");
   std::vector<std::shared_ptr<const MaterialModel>> models;

@@ -56,6 +56,9 @@ std::string no_static_form(const Scene& s) {
     return "Subgrade/Reduction = " + s.subgrade.reduction + " gives modes, which have inertia";
   if (s.subgrade.absorbing != "none")
     return "Subgrade/Absorbing = " + s.subgrade.absorbing + " lets waves out, which need inertia";
+  if (s.subgrade.damping_ratio > 0)
+    return "Subgrade/Damping ratio = " + s.values.at("Subgrade/Damping ratio") +
+           " damps motion, which a static answer has none of";
   return "";
 }
 

@@ -285,6 +285,9 @@ void add_subgrade(Section s) {
       "Absorbing", "none", {"none", "sides", "bottom", "all"},
       "boundaries with dashpots and springs that let waves out, instead of rollers and a fixed "
       "base");
+  s.number("Damping ratio", "0", "-", 0, 0.5,
+           "of the elastic subgrade's material, share of critical at the load's frequency and at "
+           "ten times it (Rayleigh); soils at small strain have 0.01 to 0.05; 0 = off");
 }
 
 void add_loading(Section s) {

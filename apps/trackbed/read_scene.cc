@@ -180,6 +180,7 @@ SubgradeScene subgrade(const Values& v) {
   s.modes = static_cast<int>(v.integer("Subgrade/Modes"));
   s.inertia = v.text("Subgrade/Inertia");
   s.absorbing = v.text("Subgrade/Absorbing");
+  s.damping_ratio = v.number("Subgrade/Damping ratio");
   const std::string section = "Subgrade/" + s.model;
   for (const auto& p : subgrade_parameters())
     if (p.section == section) s.values[p.key] = v.text(parameter_path(p));

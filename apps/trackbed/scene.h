@@ -138,6 +138,7 @@ struct SubgradeScene {
   int modes;                                  ///< of a reduced one
   std::string inertia;                        ///< "on" | "off" (`auto` has been decided)
   std::string absorbing;                      ///< "none" | "sides" | "bottom" | "all"
+  double damping_ratio;                       ///< of the material, share of critical; 0 = off
   std::map<std::string, std::string> values;  ///< of the model's own section: key to text
 };
 

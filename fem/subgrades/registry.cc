@@ -79,6 +79,10 @@ std::unique_ptr<Structure> body_with_history(const SubgradeSite& site, const Val
     throw InputError(
         "Subgrade/Absorbing: boundaries absorb the waves of an elastic material only; none is "
         "allowed");
+  if (site.damped())
+    throw InputError(
+        "Subgrade/Damping ratio: Rayleigh's damping needs the constant stiffness of an elastic "
+        "material; 0 is allowed");
   ElasticBodyParameters p = box_under(site);
   const double depth = number(values, "Depth");
   p.mesh.layers = {{depth, cells_over(site, depth), 0}};
@@ -131,6 +135,8 @@ ElasticBodyParameters box_under(const SubgradeSite& site) {
 std::unique_ptr<Structure> make_body(const SubgradeSite& site, ElasticBodyParameters p) {
   p.scheme = site.scheme;
   p.solver = site.solver;
+  for (Material& m : p.materials)
+    m.rayleigh_mass += site.damping.mass, m.rayleigh_stiffness += site.damping.stiffness;
   double depth = 0;
   for (const Layer& layer : p.mesh.layers) depth += layer.thickness;
   const auto absorb = [&](const char* boundary, double distance) {
@@ -163,6 +169,10 @@ PointBedParameters points_under(const SubgradeSite& site) {
   if (site.absorbing_sides || site.absorbing_bottom)
     throw InputError(
         "Subgrade/Absorbing: a bed of points has no sides and no bottom; none is allowed");
+  if (site.damped())
+    throw InputError(
+        "Subgrade/Damping ratio: a bed of points is damped by dashpots of its own (kelvin_voigt); "
+        "0 is allowed");
   PointBedParameters p;
   p.x_low = site.x_low, p.x_high = site.x_high;
   p.y_low = site.y_low, p.y_high = site.y_high;

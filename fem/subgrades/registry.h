@@ -31,6 +31,9 @@ struct SubgradeSite {
   Reduction reduction = Reduction::none;
   int modes = 20;                                          ///< of a reduced body
   bool absorbing_sides = false, absorbing_bottom = false;  ///< instead of rollers and a fixed base
+  RayleighDamping damping;                                 ///< of all materials
+
+  bool damped() const { return damping.mass > 0 || damping.stiffness > 0; }
 };
 
 /// What the user wrote, key -> text; every key of the model is there (defaults filled in).
@@ -66,8 +69,8 @@ struct RegisterSubgrade {
 double number(const Values&, const std::string& key);
 /// The box under the site with its sides held; the model adds layers and materials.
 ElasticBodyParameters box_under(const SubgradeSite&);
-/// The body with the site's time scheme, solver, absorbing boundaries and reduction: what a model's
-/// build returns.
+/// The body with the site's time scheme, solver, absorbing boundaries, damping and reduction: what
+/// a model's build returns.
 std::unique_ptr<Structure> make_body(const SubgradeSite&, ElasticBodyParameters);
 /// The bed of points on the site; the model adds stiffness, dashpot, mass.
 PointBedParameters points_under(const SubgradeSite&);

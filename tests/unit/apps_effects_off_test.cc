@@ -84,6 +84,19 @@ TEST(EffectsOff, no_absorbing_boundary_has_no_dashpot_and_needs_no_solve) {
   EXPECT_GT(on->energy().dissipated_boundary, 0);
 }
 
+TEST(EffectsOff, no_damping_of_the_subgrade_has_no_constants_and_needs_no_solve) {
+  const auto none = subgrade({});
+  for (const fem::Material& m : body_of(none)->parameters().materials)
+    EXPECT_EQ(m.rayleigh_mass + m.rayleigh_stiffness, 0);
+  pressed(*none);
+  EXPECT_TRUE(body_of(none)->is_explicit());
+  EXPECT_EQ(none->energy().dissipated_damping, 0);
+  const auto on = subgrade({"Subgrade/Damping ratio=0.05"});
+  pressed(*on);
+  EXPECT_FALSE(body_of(on)->is_explicit());
+  EXPECT_GT(on->energy().dissipated_damping, 0);
+}
+
 TEST(EffectsOff, no_inertia_is_the_static_answer) {
   const auto off = subgrade({"Subgrade/Inertia=off"});
   const auto u = pressed(*off, 1);

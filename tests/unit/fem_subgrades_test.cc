@@ -18,9 +18,10 @@ SubgradeSite site() {
   return s;
 }
 
-std::string refusal(const std::string& model, const Values& values) {
+std::string refusal(const std::string& model, const Values& values,
+                    const SubgradeSite& where = site()) {
   try {
-    make_subgrade(model, site(), values);
+    make_subgrade(model, where, values);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -67,6 +68,15 @@ TEST(Subgrades, RefuseWithTheNamesThereAre) {
             std::string::npos);
   EXPECT_NE(refusal("layered_elastic", {{"Layers", "0.2:1e6:0.5:1900"}}).find("Poisson"),
             std::string::npos);
+}
+
+TEST(Subgrades, DampElasticMaterialsOnly) {
+  SubgradeSite damped = site();
+  damped.damping = rayleigh_damping(0.05, 60, 600);
+  EXPECT_EQ(refusal("layered_elastic", {}, damped), "accepted");
+  EXPECT_EQ(refusal("depth_elastic", {}, damped), "accepted");
+  EXPECT_NE(refusal("winkler", {}, damped).find("kelvin_voigt"), std::string::npos);
+  EXPECT_NE(refusal("drucker_prager", {}, damped).find("Damping ratio"), std::string::npos);
 }
 
 TEST(PointBed, ComesToRestAtForceOverStiffness) {

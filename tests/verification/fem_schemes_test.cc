@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "fem/elastic_body.h"
+#include "fem/subgrades/registry.h"
 #include "fem/time_integration.h"
 
 using namespace trackbed;
@@ -204,6 +205,42 @@ TEST(Schemes, StaticNeedsABodyThatIsHeld) {
     EXPECT_STREQ(e.what(),
                  "block: not held: it can still move along z, so quasi_static cannot carry it; add "
                  "supports or a bed");
+  }
+}
+
+// A column of soil that was pressed and let go swings in its first mode, ω = π/2 √(E/ρ)/H; each
+// swing falls by the logarithmic decrement 2πξ/√(1 − ξ²).
+TEST(Damping, RatioIsThatOfTheDecrement) {
+  const double ratio = 0.05, omega = M_PI / 2 * std::sqrt(5e7 / 2000);
+  SubgradeSite site;
+  site.x_high = site.y_high = site.element_size = 0.1;
+  site.newmark = true;
+  site.damping = rayleigh_damping(ratio, omega, 10 * omega);
+  for (const Reduction reduction : {Reduction::none, Reduction::modal}) {
+    site.reduction = reduction;
+    const auto soil = make_subgrade("layered_elastic", site, {{"Layers", "1:5e7:0:2000"}});
+    const std::size_t nodes = soil->surface().nodes.size();
+    const double dt = 2 * M_PI / omega / 200;
+    soil->set_step(dt);
+    std::vector<Vec> u, v, w;
+    const auto swing = [&](const Vec& force, int steps) {
+      for (int n = 0; n < steps; ++n) {
+        soil->predict(u, w);
+        soil->advance(std::vector<Vec>(nodes, force));
+      }
+      soil->motion(u, v);
+      return u[0][2];
+    };
+    swing({0, 0, -100}, 20000);  // at rest under it
+    swing({0, 0, 0}, 10 * 200);  // higher modes are gone by then
+    double peak[2] = {};
+    for (double& largest : peak)
+      for (int n = 0; n < 10 * 200; ++n) {
+        const double now = -swing({0, 0, 0}, 1);
+        if (n < 200) largest = std::max(largest, now);
+      }
+    EXPECT_NEAR(std::log(peak[0] / peak[1]) / 10, 2 * M_PI * ratio / std::sqrt(1 - ratio * ratio),
+                0.01 * 2 * M_PI * ratio);
   }
 }
 

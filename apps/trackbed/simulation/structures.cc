@@ -129,6 +129,8 @@ std::unique_ptr<fem::Structure> make_subgrade_structure(const Scene& scene, cons
   site.modes = scene.subgrade.modes;
   site.absorbing_sides = scene.subgrade.absorbing == "sides" || scene.subgrade.absorbing == "all";
   site.absorbing_bottom = scene.subgrade.absorbing == "bottom" || scene.subgrade.absorbing == "all";
+  const double load = 2 * M_PI * scene.loading.frequency;
+  site.damping = fem::rayleigh_damping(scene.subgrade.damping_ratio, load, 10 * load);
   return fem::make_subgrade(scene.subgrade.model, site, scene.subgrade.values);
 }
 
