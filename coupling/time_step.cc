@@ -66,22 +66,29 @@ std::vector<fem::NodeSpring> springs_on(const Surface& s) {
   return springs;
 }
 
+/// omega of the steps that a surface with these springs allows.
+double surface_omega(const World& w, const Surface& s) {
+  const double omega = std::sqrt(s.structure->contact_bound(springs_on(s)));
+  const double own = s.structure->explicit_limit();
+  if (w.exchange.schedule != Schedule::predicted || omega * own >= 2) return omega;
+  return own > 0 ? std::min(2 * omega, 2 / own) : 2 * omega;
+}
+
 }  // namespace
 
 dem::TimeStepLimit measured_limit(const World& w, int threads) {
   if (w.surfaces.empty()) return dem::measured_limit(w.bodies, w.pairs, threads);
   const dem::FurtherContacts with_surfaces = contacts_with_surfaces(w);
   dem::TimeStepLimit limit = dem::measured_limit(w.bodies, w.pairs, threads, with_surfaces);
-  double surface = 0;  // omega^2
-  for (const Surface& s : w.surfaces)
-    surface = std::max(surface, s.structure->contact_bound(springs_on(s)));
-  if (std::sqrt(surface) > limit.omega) limit = {2 / std::sqrt(surface), -1, std::sqrt(surface), 0};
+  double surface = 0;  // omega
+  for (const Surface& s : w.surfaces) surface = std::max(surface, surface_omega(w, s));
+  if (surface > limit.omega) limit = {2 / surface, -1, surface, 0};
   const int steps = steps_per_exchange(w);
   if (steps > 1) {
     dem::Pairs none;
     none.first.assign(w.bodies.size() + 1, 0);
     const double grains = dem::measured_limit(w.bodies, none, threads, with_surfaces).omega;
-    limit.dt = std::min(limit.dt, 2 / (steps * std::max(grains, std::sqrt(surface))));
+    limit.dt = std::min(limit.dt, 2 / (steps * std::max(grains, surface)));
   }
   return limit;
 }

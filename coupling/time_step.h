@@ -12,7 +12,10 @@ namespace trackbed::coupling {
 ///   - each structure's bound with the other ends as springs on its surface nodes, by the share of
 ///     force that each takes: a positive pressure over the facets, so that such springs are no
 ///     softer than the contact. What mass it opposes to them is the structure's affair
-///     (fem::Structure::contact_bound): a body of modes as a whole, others by their lightest node.
+///     (fem::Structure::contact_bound): a body of modes or of consistent mass as a whole, others by
+///     their lightest node. A predicted surface that a solve then moves elsewhere is allowed half
+///     the step: two masses grow there by at most 5e-3 a step, beyond it soon by more than
+///     friction takes away.
 /// Structures set a limit of their own only where the schedule wants them explicit
 /// (schedule_limit). With n grain steps per exchange the surface's omega (its contacts alone) must
 /// also allow the exchange: n dt <= 2/omega (two masses are damped up to n omega dt = 2.2 and grow

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "fem/contact_bound.h"
 #include "fem/distributed_motion.h"
 #include "fem/history_cells.h"
 #include "fem/load_patch.h"
@@ -33,6 +34,7 @@ enum Task {
   kMoreState,
   kLoad,
   kStress,
+  kPush,
   kDestroy
 };
 struct Order {
@@ -71,6 +73,8 @@ struct DistributedBody::Parts {
   std::vector<DistributedVector> load_weight;  // of a positive force
   SurfaceExchange exchange;
   std::vector<double> load, load_before;
+  std::unique_ptr<DistributedSolver> inertia;  // of a consistent mass, when first needed
+  DistributedVector pushed;
   // Ledger [J].
   double work_loads = 0, work_surface = 0, damping = 0, boundary = 0, at_start = 0;
 
@@ -80,7 +84,7 @@ struct DistributedBody::Parts {
         motion(stress ? make_history_motion(m, std::move(stress)) : make_linear_motion(m)),
         number(next_number++),
         exchange(m, surface.node) {
-    for (auto* x : {&force, &surface_force, &surface_before, &before, &v_before, &values})
+    for (auto* x : {&force, &surface_force, &surface_before, &before, &v_before, &values, &pushed})
       x->reinit(m);
     for (const Load& l : m.p.loads) {
       patches.push_back(load_patch(m.body, m.p.name, l));
@@ -132,6 +136,15 @@ struct DistributedBody::Parts {
     if (ahead) motion->predict(values, v_before);
     exchange.gather(ahead ? values : motion->u, displacement);
     exchange.gather(ahead ? v_before : motion->v, velocity);
+  }
+
+  // M⁻¹ of forces on the surface, there; `forces` of rank 0 count, `accelerations` are for it.
+  void push(const std::vector<Vec>& forces, std::vector<Vec>& accelerations) {
+    if (!inertia) inertia = std::make_unique<DistributedSolver>(m, m.consistent, m.p.solver);
+    exchange.scatter(forces, values);
+    pushed.scale(0);
+    inertia->solve(values, pushed);
+    exchange.gather(pushed, accelerations);
   }
 
   StructureEnergy energy() {
@@ -189,10 +202,17 @@ double DistributedBody::least_surface_mass() const {
 }
 double DistributedBody::largest_frequency() const { return parts_->motion->largest_frequency(); }
 double DistributedBody::contact_bound(const std::vector<NodeSpring>& springs) const {
-  double own = 0;  // omega
-  if (parts_->motion->is_explicit())
-    own = (std::isfinite(largest_step()) ? 2 : 0.9 * 2) / explicit_limit();
-  return Structure::contact_bound(springs) + own * own;
+  Parts& s = *parts_;
+  if (s.motion->is_explicit()) {
+    const double own = (std::isfinite(largest_step()) ? 2 : 0.9 * 2) / explicit_limit();  // omega
+    return Structure::contact_bound(springs) + own * own;
+  }
+  if (s.motion->is_static() || s.m.lumped) return Structure::contact_bound(springs);
+  return largest_contact_eigenvalue(springs, static_cast<int>(s.surface.node.size()),
+                                    [&](const auto& forces, auto& accelerations) {
+                                      s.order(kPush);
+                                      s.push(forces, accelerations);
+                                    });
 }
 int DistributedBody::unknowns() const { return parts_->m.unknowns.count; }
 int DistributedBody::solver_iterations() const { return parts_->motion->iterations(); }
@@ -351,6 +371,8 @@ void DistributedBody::take_part(int task, double value) {
     case kEnergy:
       s.energy();
       return;
+    case kPush:
+      return s.push({}, unused);
     case kMean:
       load_displacement(static_cast<int>(value));
       return;

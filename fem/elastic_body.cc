@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "fem/body_model.h"
+#include "fem/contact_bound.h"
 #include "fem/frequencies.h"
 #include "fem/output.h"
 #include "fem/text.h"
@@ -23,6 +24,7 @@ double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[
 struct ElasticBody::Parts : BodyModel {
   Stepper stepper;
   std::unique_ptr<LinearSolver> statics;  // of the stiffness, when first needed
+  std::unique_ptr<LinearSolver> inertia;  // of the mass, likewise
 
   Motion motion;
   std::vector<double> load, load_before;  // resultants [N]: from the next step on, and at t
@@ -52,6 +54,16 @@ struct ElasticBody::Parts : BodyModel {
     for (int i = 0; i < body.nodes(); ++i)
       energy -= assembled.node_mass[i] * inner(p.gravity, at(motion.u, i));
     return energy;
+  }
+  // M⁻¹ of forces on the surface, there.
+  void push(const std::vector<Vec>& forces, std::vector<Vec>& accelerations) {
+    if (!inertia)
+      inertia = std::make_unique<LinearSolver>(matrices().pattern, matrices().mass, "mass matrix",
+                                               p.solver);
+    std::vector<double> f(unknowns.count, 0.), a(unknowns.count, 0.);
+    add_surface(forces, f);
+    inertia->solve(f, a);
+    for (std::size_t i = 0; i < surface.node.size(); ++i) accelerations[i] = at(a, surface.node[i]);
   }
   bool is_static() const { return p.scheme == TimeScheme::quasi_static; }
   double kinetic() const { return is_static() ? 0 : product_of(matrices().mass, motion.v) / 2; }
@@ -166,9 +178,14 @@ double ElasticBody::least_surface_mass() const {
 }
 double ElasticBody::largest_frequency() const { return fem::largest_frequency(parts_->matrices()); }
 double ElasticBody::contact_bound(const std::vector<NodeSpring>& springs) const {
-  double own = 0;  // omega
-  if (is_explicit()) own = (std::isfinite(largest_step()) ? 2 : 0.9 * 2) / explicit_limit();
-  return Structure::contact_bound(springs) + own * own;
+  Parts& s = *parts_;
+  if (is_explicit()) {
+    const double own = (std::isfinite(largest_step()) ? 2 : 0.9 * 2) / explicit_limit();  // omega
+    return Structure::contact_bound(springs) + own * own;
+  }
+  if (s.is_static() || !s.matrices().lumped.empty()) return Structure::contact_bound(springs);
+  return largest_contact_eigenvalue(springs, static_cast<int>(s.surface.node.size()),
+                                    [&](const auto& forces, auto& a) { s.push(forces, a); });
 }
 double ElasticBody::largest_step() const { return parts_->stepper.largest_step(); }
 int ElasticBody::solver_iterations() const { return parts_->stepper.iterations(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fem/contact_bound.h"
 #include "fem/sparse.h"
 #include "fem/text.h"
 
@@ -194,9 +195,15 @@ double ModalStructure::largest_frequency() const {
 }
 
 double ModalStructure::contact_bound(const std::vector<NodeSpring>& springs) const {
+  const double lambda = modes() > kMostModes ? by_iterations(springs) : by_powers(springs);
+  const double own = largest_frequency(), cosine = std::cos(0.5 * kStatic);
+  return std::min(lambda + own * own, lambda / (cosine * cosine));
+}
+
+// Largest eigenvalue of Φᵀ S Φ, from above.
+double ModalStructure::by_powers(const std::vector<NodeSpring>& springs) const {
   const int n = modes();
-  if (n > kMostModes) return Structure::contact_bound(springs);
-  std::vector<double> sum(n * n, 0.);  // Φᵀ S Φ
+  std::vector<double> sum(n * n, 0.);
   std::vector<double> pushed(n);
   for (const NodeSpring& s : springs)
     for (int d = 0; d < 3; ++d) {
@@ -207,9 +214,23 @@ double ModalStructure::contact_bound(const std::vector<NodeSpring>& springs) con
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) sum[i * n + j] += shape[d * n + i] * pushed[j];
     }
-  const double lambda = largest_eigenvalue(std::move(sum), n), own = largest_frequency(),
-               cosine = std::cos(0.5 * kStatic);
-  return std::min(lambda + own * own, lambda / (cosine * cosine));
+  return largest_eigenvalue(std::move(sum), n);
+}
+
+double ModalStructure::by_iterations(const std::vector<NodeSpring>& springs) const {
+  const int n = modes(), nodes = static_cast<int>(m_.surface.nodes.size());
+  std::vector<double> q(n);
+  return largest_contact_eigenvalue(
+      springs, nodes, [&](const std::vector<Vec>& forces, std::vector<Vec>& accelerations) {
+        std::fill(q.begin(), q.end(), 0.);  // Φᵀ f
+        for (int i = 0; i < 3 * nodes; ++i)
+          for (int k = 0; k < n; ++k) q[k] += m_.shape[i * n + k] * forces[i / 3][i % 3];
+        for (int i = 0; i < 3 * nodes; ++i) {
+          double a = 0;
+          for (int k = 0; k < n; ++k) a += m_.shape[i * n + k] * q[k];
+          accelerations[i / 3][i % 3] = a;
+        }
+      });
 }
 
 double ModalStructure::kinetic() const {

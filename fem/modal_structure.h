@@ -135,6 +135,8 @@ class ModalStructure final : public Structure {
   double strain() const;
   double gravity_potential() const;
   void start_ledger();
+  double by_powers(const std::vector<NodeSpring>&) const;
+  double by_iterations(const std::vector<NodeSpring>&) const;  // of many modes
 
   ModalModel m_;
   std::vector<Step> step_;

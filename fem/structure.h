@@ -94,7 +94,7 @@ class Structure {
       const = 0;  ///< upper estimate of ω_max of the full model [rad/s]
 
   /// ω² [1/s²], so that steps up to 2/ω are stable with these springs on the surface, at most one a
-  /// node. By default λ_max(M⁻¹K) ≤ largest spring / least mass of a node.
+  /// node; springs come with twice the contacts' stiffness (coupling/time_step.h). By default λ_max(M⁻¹K) ≤ largest spring / least mass of a node.
   virtual double contact_bound(const std::vector<NodeSpring>& springs) const {
     double stiffest = 0;
     for (const NodeSpring& s : springs) stiffest = std::max(stiffest, s.largest);

@@ -11,6 +11,7 @@ trackbed_test(fem_reduction verification trackbed_fem Eigen3::Eigen)
 trackbed_test(fem_beam verification trackbed_fem)
 trackbed_test(fem_rail_pad verification trackbed_fem)
 trackbed_test(fem_schemes verification trackbed_fem)
+trackbed_test(fem_contact_bound verification trackbed_fem)
 # These look at the library's inner parts, and so at deal.II.
 trackbed_test(fem_convergence verification trackbed_fem trackbed_dealii)
 trackbed_test(fem_modes verification trackbed_fem trackbed_dealii Eigen3::Eigen)

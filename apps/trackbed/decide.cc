@@ -11,9 +11,7 @@ namespace {
 constexpr double stiffest_bed = 2e8;  // [Pa]
 constexpr double bed_poisson = 0.2;
 
-}  // namespace
-
-void decide(Scene& scene) {
+void decide_sleeper(Scene& scene) {
   SleeperScene& s = scene.sleeper;
   if (s.model != "auto") return;
   const double bending = s.modulus * s.width * std::pow(s.height, 3) / 12;
@@ -27,6 +25,19 @@ void decide(Scene& scene) {
                 "bends from %.2f on)",
                 s.model.c_str(), ratio, fem::kShortBeam);
   scene.decisions.push_back(why);
+}
+
+}  // namespace
+
+bool stores_energy(const Scene& scene) { return scene.contact.law != "shao2017"; }
+
+void decide(Scene& scene) {
+  decide_sleeper(scene);
+  if (!stores_energy(scene))
+    scene.decisions.push_back(
+        "Numerics/Closure = " + scene.values.at("Numerics/Closure") +
+        ": held by what the exchange and the structures make, not by the ledger as a whole, for "
+        "Contact/Law = shao2017 stores no energy");
 }
 
 }  // namespace trackbed::apps

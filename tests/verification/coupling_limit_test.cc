@@ -115,6 +115,23 @@ TEST(Limit, is_sharp_for_two_equal_masses) {
   EXPECT_NEAR(true_limit({{kGrain, 0}}), 2 / std::sqrt(2 * kContact / kGrain), 1e-9);
 }
 
+// Predicted, then moved elsewhere by a solve: half the step, unless the exchange is iterated.
+TEST(Limit, is_half_where_a_solve_moves_what_was_predicted) {
+  const auto limit = [](bool verlet, Schedule schedule) {
+    World w = cube_on_modes({{1, 0}});
+    w.surfaces.clear();
+    w.surfaces.push_back(make_surface("body", 0, .1, 0, Vec3::Zero(),
+                                      std::make_unique<MassOnSpring>(kGrain, 1e-6, 2, verlet)));
+    w.exchange.schedule = schedule;
+    start(w, context(1e-3, Vec3::Zero()));
+    return measured_limit(w, 1).dt;
+  };
+  const double whole = limit(true, Schedule::predicted);
+  EXPECT_LT(whole, 2 / std::sqrt(2 * 1.2 * kContact / kGrain));  // the lightest node's
+  EXPECT_NEAR(limit(false, Schedule::predicted), whole / 2, 1e-9);
+  EXPECT_NEAR(limit(false, Schedule::iterated), whole, 1e-9);
+}
+
 // A grain between others and a surface: the surface's contact counts with those of the pairs.
 TEST(Limit, counts_the_surface_with_the_pairs) {
   const auto limit = [](bool surface, bool above) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "apps/trackbed/csv.h"
+#include "apps/trackbed/decide.h"
 #include "apps/trackbed/effects.h"
 #include "apps/trackbed/files.h"
 #include "apps/trackbed/simulation/bearing.h"
@@ -128,7 +129,10 @@ void write_summary(const Run& run, const std::string& file) {
   }
   row("closure", s.work_in > 0 ? CsvCell(s.worst_closure / s.work_in) : CsvCell(), "-",
       "largest energy not accounted for, over the work put in while loading");
-  row("closure tolerance", run.scene.numerics.closure, "-", "stated in the scene");
+  row("closure tolerance", run.scene.numerics.closure, "-",
+      stores_energy(run.scene) ? "stated in the scene"
+                               : "stated in the scene; the contact law stores no energy, so that "
+                                 "only exchange and structures are held to it");
   row("exchange gain", s.work_in > 0 ? CsvCell(s.exchange_gain / s.work_in) : CsvCell(), "-",
       "largest energy that the exchange made, over the work put in while loading");
   if (run.scene.loading.push != "none")
