@@ -238,6 +238,10 @@ class Structures(SceneTest):
         self.assertAlmostEqual(zhai, beam, delta=0.01 * abs(full))
         absorbing = peak("absorbing", **{"Subgrade/Absorbing": "all"})
         self.assertGreater(absorbing, 0)
+        peak("damped", **{"Subgrade/Damping ratio": "0.05"})
+        for name, damps in (("full", False), ("damped", True)):
+            lost = float(rows(self.folder / name / "energy.csv")[-1]["dissipated_structure_damping_J"])
+            self.assertEqual(lost > 0, damps)
 
     def test_rail_pads(self):
         """Pad and sleeper are springs in series: one load, deflections add. The sleeper itself does not feel it."""
@@ -372,6 +376,15 @@ class Exchange(SceneTest):
                              exit_code=1)
         line = done.stderr.strip().splitlines()[-1]
         self.assertRegex(line, r"step \d+ \(loading.*Numerics/Closure allows.*(halve|exchange)")
+
+    def test_law_that_stores_no_energy(self):
+        """Only what exchange and structures make is held to the tolerance then, and the plan says so."""
+        change = {**SHORT, "Contact/Law": "shao2017", "Numerics/Closure": "1e-6"}
+        plan = self.trackbed("check", "tiny.prm", *[f"--set={k}={v}" for k, v in change.items()]).stdout
+        self.assertRegex(plan, "Numerics/Closure = 1e-6: .*shao2017 stores no energy")
+        report = self.summary(self.run_scene("shao", change=change))
+        self.assertGreater(float(report["closure"]), 1e-6)
+        self.assertLess(float(report["exchange gain"]), 1e-6)
 
     def test_steps_per_exchange_without_its_schedule(self):
         done = self.trackbed("check", "tiny.prm", "--set=Numerics/Grain steps per exchange=4", exit_code=2)
