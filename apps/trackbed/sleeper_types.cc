@@ -16,9 +16,9 @@ namespace {
 //                0.3065 m at its widest, 283 kg
 //   chinese_III  2.6 m long, 0.23 m high at the seats (0.185 m in the middle), 353 kg
 // From who makes it: B70 weighs 280 kg (weckenmann.de, 1 February 2018, on RAIL.ONE's plant in
-// Coswig); 2.60 m is the length of L. Moll's sleepers (system-bahn.net, "Schwelle zur Zukunft").
-// Commonly quoted and unchecked: the base of chinese_III, 0.32 m at the ends; of B70 the base,
-// 0.30 m, and the height at the seats, 0.21 m (size as meshes/sleeper_b70.geo).
+// Coswig). Commonly quoted and unchecked: the base of chinese_III, 0.32 m at the ends; of B70 the
+// length, 2.6 m, the base, 0.30 m, and the height at the seats, 0.21 m (size as
+// meshes/sleeper_b70.geo).
 // Modulus: C60 of GB 50010, 36 GPa; B70's concrete is C50/60 (cubes of
 // 60 N/mm2: tkgftgleistechnik.de, Oberbauhandbuch, sheet 222-01), 37 GPa (EN 1992-1-1, Table 3.1).
 // Seats: 1.435 m gauge and half a rail head on each side, 1.507 m from rail to rail.
