@@ -52,11 +52,16 @@ void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
       const int e = pairs.incident[k];
       const int p = e >= 0 ? e : ~e;
       if (!pairs.touching[p]) continue;
-      const double sign = e >= 0 ? 1 : -1;
-      const Vec3 acts = sign * pairs.force[p];
-      force += acts;
-      torque += (e >= 0 ? pairs.arm_a : pairs.arm_b)[p].cross(acts);
-      if (p < balls || p >= others) torque += sign * pairs.couple[p];
+      const bool couple = p < balls || p >= others;
+      if (e >= 0) {
+        force += pairs.force[p];
+        torque += pairs.arm_a[p].cross(pairs.force[p]);
+        if (couple) torque += pairs.couple[p];
+      } else {
+        force -= pairs.force[p];
+        torque -= pairs.arm_b[p].cross(pairs.force[p]);
+        if (couple) torque -= pairs.couple[p];
+      }
     }
     b.force[i] = force;
     b.torque[i] = torque;
