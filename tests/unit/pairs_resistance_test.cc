@@ -123,6 +123,11 @@ TEST(Rolling, of_frictionless_spheres_stores_its_own_energy_only) {
     EXPECT_NEAR(s.pairs.friction_energy[0], expected, 1e-12 * expected) << n;
     EXPECT_EQ(s.pairs.friction_loss[0], 0);
   }
+  // Nothing but the spring turns them: centred forces of frictionless spheres have no arm.
+  sum_forces(s.pairs, s.context, s.bodies);
+  const Vec3 spring = s.pairs.rolling[0];
+  EXPECT_LT((s.bodies.torque[0] - spring).norm(), 1e-12 * spring.norm());
+  EXPECT_LT((s.bodies.torque[1] + spring).norm(), 1e-12 * spring.norm());
 }
 
 TEST(Torsion, keeps_an_offset_stack_from_turning) {
