@@ -102,10 +102,11 @@ inline constexpr int kManyPairs = 4000;  // fewer stay in the processor's own ca
     fetch_lines(&shapes.ball(b.shape[j], 0), 1);
   }
 }
-/// At row p of eight; the last row of all begins before `end`.
+/// At row p of eight, for later ones before `end`. Where this one touches those most likely do;
+/// whether they do is not looked at, as another thread may be writing it.
 [[gnu::always_inline]] inline void fetch_ahead(const Bodies& b, const ShapeTable& shapes,
                                                const Pairs& pairs, int p, int end) {
-  if (p + 3 * kAhead + 8 > end || !pairs.touching[p + kAhead]) return;
+  if (p + 3 * kAhead + 8 > end || !pairs.touching[p]) return;
   fetch_keys(pairs, p + 3 * kAhead);
   fetch_shapes_of(b, pairs, p + 2 * kAhead);
   fetch_balls(b, shapes, pairs, p + kAhead);
