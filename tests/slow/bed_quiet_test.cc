@@ -6,7 +6,7 @@
 // grains slide. That is the model's flutter and no error of the steps: half the step gives about
 // the same growth, and the ledger closes with the square of the step while it grows (case
 // flutters). With 0.05 some beds rest and others do not (of five, two), which differs with the last
-// bit of how they were poured; with 0.3 all that were tried rest. Torsional friction is on: a grain
+// bit of how they were poured; with 0.3 all that were tried come to rest, some after a slide. Torsional friction is on: a grain
 // that stands on one point would spin for ever without.
 #include <gtest/gtest.h>
 
@@ -54,6 +54,12 @@ double farthest(const Scene& s, const std::vector<Vec3>& from) {
 TEST(Bed, rests_for_a_million_steps) {
   Scene s = quiet_box();
   s.context.local_damping = .3;
+  // Where it came to rest under .8 it may still leave, slowly, for a place where .3 holds it.
+  for (int quiet = 0, k = 0; quiet < 10 && k < 60; ++k) {
+    s.run(s.time + .5);
+    quiet = s.now().kinetic < 1e-20 ? quiet + 1 : 0;
+  }
+  s.flow = {}, s.start = s.now();
   const std::vector<Vec3> before = s.bodies.x;
   const double began = s.time;
   double kinetic = 0;
