@@ -5,7 +5,7 @@
 
 #include "dem/contact/eight.h"
 #include "dem/contact/face_prism.h"
-#include "dem/contact/flat_overlap.h"
+#include "dem/contact/flat_cap.h"
 #include "dem/contact/laws/stored_energy.h"
 
 namespace trackbed::dem {
@@ -87,6 +87,24 @@ bool thin_overlap(const Side& a, const Pose& pa, const Side& b, const Pose& pb,
   });
 }
 
+// The only pair of faces that overlaps, by a cap. `unsure`: there are more, or it is none.
+FlatOverlap single_cap(const Side& a, const Pose& pa, const Side& b, const Pose& pb,
+                       SimpleContact& cap) {
+  FlatOverlap all = FlatOverlap::nothing;
+  a.all([&](const FlatFace& f) {
+    return b.all([&](const FlatFace& g) {
+      SimpleContact other;
+      SimpleContact& c = all == FlatOverlap::nothing ? cap : other;
+      const FlatOverlap is = flat_cap(a.part.core, pa.R, f, b.part.core, pb, g, c);
+      if (is == FlatOverlap::nothing) return true;
+      const bool first = is == FlatOverlap::found && all == FlatOverlap::nothing;
+      all = first ? is : FlatOverlap::unsure;
+      return first;
+    });
+  });
+  return all;
+}
+
 void any_overlap(const Side& a, const Pose& pa, const Side& b, const Pose& pb, const Vec3& n,
                  ContactFrame& frame, OverlapWorkspace& work, OverlapMoments& moments) {
   bool framed = false;
@@ -96,6 +114,13 @@ void any_overlap(const Side& a, const Pose& pa, const Side& b, const Pose& pb, c
       overlap(u, pa, v, pb, frame, work, moments);
     });
   });
+}
+
+void respond(const SimpleContact& s, const PairMaterial& material, NormalContact& out) {
+  out.shape = s.shape;
+  out.response = StoredEnergyLaw()(s.shape, material);
+  set_force(integrate_pressure(s.corner, s.corners, s.shape, out.response), s.of_a ? -1 : 1,
+            s.frame, out);
 }
 
 }  // namespace
@@ -111,16 +136,22 @@ bool flat_contact(const PartView& a, const Mat3& Ra, const PartView& b, const Po
   const Side of_a(a, Ra, balls.n, overlap), of_b(b, pose.R, -balls.n, overlap);
   if (of_a.count == 0 || of_b.count == 0) return false;
   const Pose own{Ra, Vec3::Zero()};
-  OverlapMoments moments;
-  work.clear();
-  // Along a flat part's normal depths keep their digits.
-  const Vec3 normal = a.radius > 0 ? of_a.normal(0) : Vec3(-of_b.normal(0));
-  ContactFrame frame{balls.x + (balls.ra - balls.overlap / 2) * balls.n, axes_along(normal)};
   // No deeper in any of the prisms either, so that those higher than this end outside.
   const double thickness = 1.01 * overlap;
   const bool thin = (a.radius == 0 || thickness < a.radius) &&
                     (b.radius == 0 || thickness < b.radius) &&
                     std::max(of_a.count, of_b.count) <= Side::kMost;
+  if (thin) {
+    SimpleContact cap;
+    const FlatOverlap found = single_cap(of_a, own, of_b, pose, cap);
+    if (found == FlatOverlap::nothing) return false;
+    if (found == FlatOverlap::found) return respond(cap, material, out), true;
+  }
+  OverlapMoments moments;
+  work.clear();
+  // Along a flat part's normal depths keep their digits.
+  const Vec3 normal = a.radius > 0 ? of_a.normal(0) : Vec3(-of_b.normal(0));
+  ContactFrame frame{balls.x + (balls.ra - balls.overlap / 2) * balls.n, axes_along(normal)};
   if (!thin || !thin_overlap(of_a, own, of_b, pose, frame, thickness, work, moments)) {
     work.clear();
     moments = OverlapMoments();
@@ -129,7 +160,9 @@ bool flat_contact(const PartView& a, const Mat3& Ra, const PartView& b, const Po
   if (!(moments.volume > 0)) return false;
   out.shape = make_shape(moments, work);
   out.response = StoredEnergyLaw()(out.shape, material);
-  set_force(integrate_pressure(work, work.a_pieces, out.shape, out.response), -1, frame, out);
+  const bool by_a = work.a_pieces.size() <= work.b_pieces.size();  // either's pieces would do
+  const auto& pieces = by_a ? work.a_pieces : work.b_pieces;
+  set_force(integrate_pressure(work, pieces, out.shape, out.response), by_a ? -1 : 1, frame, out);
   return true;
 }
 

@@ -8,7 +8,7 @@
 namespace trackbed::dem {
 namespace {
 
-constexpr double kFlatsClose = 1e-12;  // of the areas' size; strips of walls are small ones
+constexpr double kFlatsSure = 1e-10;  // of the volume
 
 // Moments of a tetrahedron about the mean of its corners, where the first moments vanish:
 // V/20 sum_i y_i y_i^T.
@@ -45,7 +45,7 @@ struct Mark {
 
 // Whether the vector areas of what was appended add up to nothing, within 1e-8 of their size: the
 // volume is that sure.
-bool closes(const Mark& mark, const OverlapWorkspace& work, double tolerance = 1e-8) {
+bool closes(const Mark& mark, const OverlapWorkspace& work) {
   Vec3 sum = Vec3::Zero();
   double squares = 0;
   const auto add = [&](const std::vector<OverlapPiece>& pieces, std::size_t from) {
@@ -53,7 +53,26 @@ bool closes(const Mark& mark, const OverlapWorkspace& work, double tolerance = 1
       sum += pieces[i].area, squares += pieces[i].area.squaredNorm();
   };
   add(work.a_pieces, mark.a), add(work.b_pieces, mark.b);
-  return sum.squaredNorm() <= tolerance * tolerance * squares;
+  return sum.squaredNorm() <= 1e-16 * squares;
+}
+
+// The same of flat parts, thin along z. Areas that are missing, c along z and h across it, change
+// the volume by c times its thickness and h times its width: a strip of a wall is small, and counts
+// by its distance. Sure is what changes it by no more than a share of it, or than planes do that
+// are known to `rounding` [m].
+bool closes_flat(const Mark& mark, const OverlapWorkspace& work, double volume, double rounding) {
+  double x = 0, y = 0, z = 0, up = 0, surface = 0;
+  const auto add = [&](const std::vector<OverlapPiece>& pieces, std::size_t from) {
+    for (std::size_t i = from; i < pieces.size(); ++i) {
+      const Vec3& a = pieces[i].area;
+      x += a.x(), y += a.y(), z += a.z();
+      up += std::abs(a.z()), surface += std::abs(a.x()) + std::abs(a.y());
+    }
+  };
+  add(work.a_pieces, mark.a), add(work.b_pieces, mark.b);
+  surface += up;
+  const double area = up / 2, sure = kFlatsSure * volume + rounding * surface;
+  return std::abs(z) * volume <= area * sure && (x * x + y * y) * area <= sure * sure;
 }
 
 PlacedBody placed(const ConvexView& v, const Pose& p, const ContactFrame& frame) {
@@ -117,13 +136,16 @@ FlatOverlap overlap_of_faces(const ConvexView& a, const Pose& pa, const FlatFace
                              const ContactFrame& frame, double thickness, OverlapWorkspace& work,
                              OverlapMoments& moments) {
   const Mark mark(work);
-  if (!clip_flats(placed(a, pa, frame), on_a, placed(b, pb, frame), on_b, thickness, work) ||
-      !closes(mark, work, kFlatsClose)) {
-    mark.back(work);
-    return FlatOverlap::unsure;
+  const OverlapMoments before = moments;
+  if (clip_flats(placed(a, pa, frame), on_a, placed(b, pb, frame), on_b, thickness, work)) {
+    if (work.points.size() == mark.points) return FlatOverlap::nothing;
+    if (!sum_moments(false, mark, work, moments)) return FlatOverlap::nothing;
+    if (closes_flat(mark, work, moments.volume - before.volume, 1e-15 * (a.radius + b.radius)))
+      return FlatOverlap::found;
   }
-  if (work.points.size() == mark.points) return FlatOverlap::nothing;
-  return sum_moments(false, mark, work, moments) ? FlatOverlap::found : FlatOverlap::nothing;
+  moments = before;
+  mark.back(work);
+  return FlatOverlap::unsure;
 }
 
 bool overlap_again(const ConvexView& a, const Pose& pa, const ConvexView& b, const Pose& pb,

@@ -93,7 +93,8 @@ void find_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials
     if (flat_contact(part_a, b.R[i], part_b, {b.R[j], apart}, balls, material,
                      pairs.workspaces[omp_get_thread_num()], flat)) {
       const BallContactOf<double> contact{balls.overlap, radius, 0, contact_mass(b, i, j), c.dt};
-      respond_flat<Law, friction>(b, material, contact, balls.n, arm_a, flat, apart, pairs, p);
+      respond_flat<Law, friction>(b, material, contact, balls.n, arm_a, flat,
+                                  part_a.crown + part_b.crown, apart, pairs, p);
       return;
     }
     pairs.couple[p].setZero();  // of a flat part that is gone

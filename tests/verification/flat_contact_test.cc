@@ -7,6 +7,7 @@
 
 #include "contact_support.h"
 #include "dem/contact/face_prism.h"
+#include "dem/contact/flat_cap.h"
 #include "dilated_pair.h"
 
 namespace trackbed::dem {
@@ -206,6 +207,58 @@ TEST(FlatContact, no_face_is_left_out) {
     }
   }
   EXPECT_GT(flats, 200);
+}
+
+TEST(FlatContact, cap_in_a_face_is_the_overlap_of_both_prisms) {
+  // In closed form, against clipping; and where it says that nothing overlaps, nothing does.
+  Random random(5);
+  int found = 0, nothing = 0;
+  for (int k = 0; k < 200; ++k) {
+    Scene s = scene();
+    const double r = random.uniform(.05, .2);
+    s.add(dilated(k % 3 ? random_hull(random, 14) : make_box({1, .8, .6}), r), 1, Vec3::Zero());
+    if (k % 4)
+      s.add(dilated(random_hull(random, 10), r), 1, Vec3::Zero());
+    else
+      s.add(make_grain_shape(random_hull(random, 10)), 1, Vec3::Zero());
+    face_on_face(s, random, random.uniform(0, .2), std::pow(10., random.uniform(-3, -1.5)));
+    const PartView &a = s.shapes.flat_part(s.bodies.shape[0], 0),
+                   &b = s.shapes.flat_part(s.bodies.shape[1], 0);
+    const Pose own{s.bodies.R[0], Vec3::Zero()}, pose{s.bodies.R[1], s.bodies.x[1]};
+    for (int f = 0; f < a.core.faces; ++f)
+      for (int g = 0; g < b.core.faces; ++g) {
+        SimpleContact c;
+        const FlatOverlap is = flat_cap(a.core, own.R, {f, r}, b.core, pose, {g, b.radius}, c);
+        if (is == FlatOverlap::unsure) continue;
+        FacePrism p, q;
+        make_face_prism(a.core, f, 0, r, p);
+        if (b.radius > 0) make_face_prism(b.core, g, 0, r, q);
+        const ConvexView& v = b.radius > 0 ? q.view : b.core;
+        OverlapMoments m;
+        OverlapWorkspace work;
+        const ContactFrame frame = contact_frame(p.view, own, v, pose, s.bodies.x[1]);
+        const bool overlaps = overlap(p.view, own, v, pose, frame, work, m);
+        if (is == FlatOverlap::nothing) {
+          // Of a plain body only what lies below its face was looked at.
+          ++nothing;
+          EXPECT_LT(m.volume, 1e-15);
+          continue;
+        }
+        ++found;
+        ASSERT_TRUE(overlaps) << k;
+        const OverlapShape expected = make_shape(m, work);
+        EXPECT_NEAR(c.shape.volume, expected.volume, 1e-9 * expected.volume) << k;
+        const Vec3 centroid = frame.origin + frame.axes * expected.centroid;
+        EXPECT_LT((c.frame.origin + c.frame.axes * c.shape.centroid - centroid).norm(), 1e-9);
+        const Vec3 area = frame.axes * expected.area;
+        EXPECT_LT((c.frame.axes * c.shape.area - area).norm(), 1e-8 * area.norm()) << k;
+        const Mat3 C = frame.axes * expected.second_moment * frame.axes.transpose();
+        EXPECT_LT((c.frame.axes * c.shape.second_moment * c.frame.axes.transpose() - C).norm(),
+                  1e-8 * C.norm());
+      }
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_GT(nothing, 100);
 }
 
 TEST(FlatContact, force_is_the_energys_gradient_from_flat_to_tilted) {
