@@ -152,8 +152,7 @@ void add_contact(Section s) {
   s.number("Tangential ratio", "0.25", "-", 0, 10, "tangential over normal stiffness (k_s/k_n)");
   s.choice("Round law", "hertz_mindlin", round_laws(),
            "of every contact with a sphere, clump or dilated grain; Contact modulus is its E*; "
-           "hertz_flat: faces of dilated grains answer by the area on which they meet, on "
-           "deforming surfaces as with hertz_mindlin");
+           "hertz_flat: faces of dilated grains answer by the area on which they meet");
   s.number("Restitution", "0.5", "-", 0.01, 1,
            "of round contacts, head on, by a dashpot; 1 = no dashpot");
   s.number("Poisson", "0.25", "-", 0, 0.49999,

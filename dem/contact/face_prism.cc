@@ -44,6 +44,8 @@ void make_face_prism(const ConvexView& v, int face, int part, double height, Fac
     plane(2 + k, out_of_face, out_of_face.dot(from));
     face_of(2 + k);
     add(k), add(next), add(count + next), add(count + k);
+    const std::uint64_t walls = std::uint64_t(4) << k | std::uint64_t(4) << (k + count - 1) % count;
+    out.vertex_faces[k] = walls | 2, out.vertex_faces[count + k] = walls | 1;
   }
   face_of(2 + count);
   ConvexView& view = out.view;
@@ -53,6 +55,7 @@ void make_face_prism(const ConvexView& v, int face, int part, double height, Fac
   view.nx = out.nx, view.ny = out.ny, view.nz = out.nz, view.offset = out.offset;
   view.faces = 2 + count;
   view.loop_begin = out.loop_begin, view.loop = out.loop;
+  view.vertex_faces = out.vertex_faces, view.face_words = 1;
   view.radius = v.radius + height;
 }
 

@@ -11,6 +11,7 @@ struct FacePrism {
   double x[2 * kCorners], y[2 * kCorners], z[2 * kCorners];
   double nx[kCorners + 2], ny[kCorners + 2], nz[kCorners + 2], offset[kCorners + 2];
   std::uint16_t loop[6 * kCorners], loop_begin[kCorners + 3];
+  std::uint64_t vertex_faces[2 * kCorners];
   ConvexView view;
 
   FacePrism() = default;

@@ -57,7 +57,7 @@ void slab_part(const ConvexView& v, double cut, Cap& cap) {
     add_corner(cap, cap.x[i] + s * (cap.x[j] - cap.x[i]), cap.y[i] + s * (cap.y[j] - cap.y[i]),
                cut);
   };
-  if (v.vertex_faces) {
+  if (v.vertex_faces && v.neighbor) {
     std::vector<std::uint64_t>& bits = cap.bits;
     if (static_cast<int>(bits.size()) < v.face_words) bits.resize(v.face_words);
     std::fill_n(bits.begin(), v.face_words, 0);

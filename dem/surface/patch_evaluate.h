@@ -150,6 +150,45 @@ inline bool cut_facets(const ConvexView& grain, const Pose& pose, const SurfaceP
   return out.moments.volume > 0;
 }
 
+/// The overlap of a grain with its facets as laws read it; `area` is minus that of the surface
+/// inside the grain.
+inline OverlapShape surface_shape(const FacetOverlaps& cut, const OverlapWorkspace& work) {
+  OverlapShape shape = make_shape(cut.moments, work);
+  shape.area.setZero();
+  for (const SurfacePiece& s : cut.pieces) shape.area -= work.b_pieces[s.piece].area;
+  return shape;
+}
+
+/// What a law's pressure on the surface inside a grain sums to.
+struct SurfacePressure {
+  Vec3 on_grain = Vec3::Zero();  ///< [N], world axes
+  double area = 0;               ///< sum of the shares [m2]
+};
+
+/// Appends the pressure's nodal forces, three a piece, and their shares of the pieces' area [m2].
+inline SurfacePressure press_on_surface(const FacetOverlaps& cut, const OverlapWorkspace& work,
+                                        const SurfacePatch& patch, const OverlapShape& shape,
+                                        const NormalResponse& response,
+                                        std::vector<std::pair<int, Vec3>>& nodal,
+                                        std::vector<double>& share) {
+  const Mat3& axes = cut.frame.axes;
+  SurfacePressure sum;
+  for (const SurfacePiece& s : cut.pieces) {
+    const auto& t = patch.triangle[s.triangle];
+    Vec3 corner[3];
+    for (int j = 0; j < 3; ++j)
+      corner[j] = axes.transpose() * (patch.node[t[j]] + s.shift - cut.frame.origin);
+    const NodalForces f = nodal_pressure(work, work.b_pieces[s.piece], shape, response, corner);
+    for (int j = 0; j < 3; ++j) {
+      nodal.push_back({t[j], -(axes * f.f[j])});
+      share.push_back(f.share[j]);
+      sum.area += f.share[j];
+      sum.on_grain -= nodal.back().second;
+    }
+  }
+  return sum;
+}
+
 /// False: the grain is deeper in the surface than its shell reaches.
 template <class Law, bool friction>
 bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
@@ -170,30 +209,12 @@ bool evaluate_patch_contact(const Bodies& b, const ShapeTable& shapes,
     return !cut.through && cut.moments.volume < 1e-3 * shapes.shape(b.shape[g]).volume;
   }
   const std::vector<SurfacePiece>& pieces = cut.pieces;
-  const Mat3& axes = cut.frame.axes;
-
   const PairMaterial& material = materials(b.material[g], patch.material);
-  OverlapShape shape = make_shape(cut.moments, work);
-  shape.area.setZero();  // minus that of the surface inside the grain
-  for (const SurfacePiece& s : pieces) shape.area -= work.b_pieces[s.piece].area;
+  const OverlapShape shape = surface_shape(cut, work);
   const NormalResponse response = Law()(shape, material);
-
-  // Nodal forces of the pressure; what they sum to acts on the grain.
-  Vec3 normal = Vec3::Zero();
-  double total = 0;
-  for (const SurfacePiece& s : pieces) {
-    const auto& t = patch.triangle[s.triangle];
-    Vec3 corner[3];
-    for (int j = 0; j < 3; ++j)
-      corner[j] = axes.transpose() * (patch.node[t[j]] + s.shift - cut.frame.origin);
-    const NodalForces f = nodal_pressure(work, work.b_pieces[s.piece], shape, response, corner);
-    for (int j = 0; j < 3; ++j) {
-      nodal.push_back({t[j], -(axes * f.f[j])});
-      share.push_back(f.share[j]);
-      total += f.share[j];
-      normal -= nodal.back().second;
-    }
-  }
+  const SurfacePressure pressed = press_on_surface(cut, work, patch, shape, response, nodal, share);
+  const Vec3& normal = pressed.on_grain;
+  const double total = pressed.area;
   if (!(total > 0)) {
     nodal.clear();
     release(k, i);

@@ -1,6 +1,6 @@
 // Hertz and Mindlin, with flat faces of dilated polyhedra that answer by the area on which they
-// meet (contact/flat_contact.h). On all other contacts, and on deforming surfaces, it is
-// hertz_mindlin.
+// meet, on each other, on rigid bodies and on deforming surfaces (contact/flat_contact.h,
+// surface/flat_patch.h). On all other contacts it is hertz_mindlin.
 #pragma once
 #include "dem/contact/laws/hertz_mindlin.h"
 
