@@ -46,6 +46,6 @@ foreach(line ${scene_lines})
              COMMAND ${TRACKBED_PYTHON} -B -m unittest program_test.${scene_class}.${CMAKE_MATCH_1}
              WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/scenes)
     set_tests_properties(${name} PROPERTIES LABELS scenes TIMEOUT 300 ENVIRONMENT
-                         "TRACKBED=$<TARGET_FILE:trackbed>;OMP_NUM_THREADS=2;OMP_WAIT_POLICY=passive")
+                         "TRACKBED=$<TARGET_FILE:trackbed>;FUZZERS=$<TARGET_FILE_DIR:fuzz_pairs>;OMP_NUM_THREADS=2;OMP_WAIT_POLICY=passive")
   endif()
 endforeach()

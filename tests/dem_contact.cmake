@@ -10,6 +10,7 @@ trackbed_test(contact_exact verification trackbed_dem CGAL::CGAL)
 
 # Random pairs for as long as one likes: build/tests/fuzz_pairs SECONDS. In the suite a fixed number.
 add_executable(fuzz_pairs ${CMAKE_CURRENT_SOURCE_DIR}/hard/fuzz_pairs.cc)
+target_include_directories(fuzz_pairs PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
 target_link_libraries(fuzz_pairs PRIVATE trackbed_dem CGAL::CGAL)
 add_test(NAME hard/fuzz_pairs COMMAND fuzz_pairs --pairs 1000 --seed 2)
 set_tests_properties(hard/fuzz_pairs PROPERTIES LABELS hard TIMEOUT 120)

@@ -1,4 +1,5 @@
-// What the fuzzers' command lines ask for: SECONDS|--pairs COUNT [--seed N] [--output DIR].
+// What the fuzzers' command lines ask for:
+//   SECONDS|--pairs COUNT [--seed N] [--output DIR] [--keep PAIR]
 #pragma once
 #include <chrono>
 #include <cmath>
@@ -16,6 +17,7 @@ struct FuzzOrder {
   long pairs = 0;
   std::uint64_t seed = 1;
   std::string folder = "results/fuzz";  ///< for offenders
+  long keep = -1;                       ///< a pair to keep whether it offends or not
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
 
   double elapsed() const {
@@ -40,13 +42,17 @@ int fuzz_as_ordered(int argc, char** argv, const char* name, Fuzz&& fuzz) {
       order.seed = std::strtoull(argv[++k], nullptr, 10);
     else if (!std::strcmp(argv[k], "--output") && k + 1 < argc)
       order.folder = argv[++k];
+    else if (!std::strcmp(argv[k], "--keep") && k + 1 < argc)
+      order.keep = std::strtol(argv[++k], nullptr, 10);
     else if (!std::strcmp(argv[k], "--pairs") && k + 1 < argc)
       order.pairs = std::strtol(argv[++k], nullptr, 10);
     else
       order.seconds = std::strtod(argv[k], nullptr);
   }
   if (!(order.seconds > 0) && !(order.pairs > 0)) {
-    std::fprintf(stderr, "%s SECONDS|--pairs COUNT [--seed N] [--output DIR]: how long?\n", name);
+    std::fprintf(stderr,
+                 "%s SECONDS|--pairs COUNT [--seed N] [--output DIR] [--keep PAIR]: how long?\n",
+                 name);
     return 2;
   }
   if (!(order.seconds > 0)) order.seconds = HUGE_VAL;

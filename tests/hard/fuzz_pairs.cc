@@ -1,14 +1,14 @@
-// fuzz_pairs SECONDS|--pairs COUNT [--seed N] [--output DIR]: random pairs of convex grains,
-// degenerate on purpose (lattice corners, coplanar faces, needles, grazing and full overlaps), each
-// judged against CGAL's exact overlap, by symmetry of the two bodies, and by the law's force as
-// gradient of its energy. An offender is written to DIR as two OFF files, the second where it
-// stood. Exit 1 if there is one.
+// fuzz_pairs (options: fuzz_order.h): random pairs of convex grains, degenerate on purpose (lattice
+// corners, coplanar faces, needles, grazing and full overlaps), each judged against CGAL's exact
+// overlap, by symmetry of the two bodies, and by the law's force as gradient of its energy. An
+// offender is written to DIR as two OFF files, both where they stood, to the last bit, and as a
+// scene, DIR/*.prm, which `trackbed run` replays. Exit 1 if there is one.
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "dem/grain/off_io.h"
 #include "tests/hard/fuzz_order.h"
+#include "tests/hard/keep_pair.h"
 #include "tests/verification/exact_overlap.h"
 
 namespace trackbed::dem::test {
@@ -177,6 +177,17 @@ Found judge(const Polyhedron& a, const Polyhedron& b, long& overlapping) {
   return fine;
 }
 
+void keep(const Found& found, const std::string& stem) {
+  std::filesystem::create_directories(std::filesystem::path(stem).parent_path());
+  write_off(stem + "_a.off", found.a), write_off(stem + "_b.off", found.b);
+  PackedGrains pair;
+  for (const Polyhedron* body : {&found.a, &found.b}) {
+    const GrainShape shape = make_grain_shape(*body);
+    pair.add(shape, shape.origin, shape.turn);
+  }
+  keep_pair(pair, {"stored_energy", "hertz_mindlin", 1e9}, stem);
+}
+
 int fuzz(const FuzzOrder& order) {
   Random random(order.seed);
   long pairs = 0, overlapping = 0;
@@ -185,13 +196,13 @@ int fuzz(const FuzzOrder& order) {
     const Polyhedron a = any_body(random);
     const Polyhedron b = moved(random.below(8) ? any_body(random) : a, any_place(random));
     const Found found = judge(a, b, overlapping);
+    if (!found.what && pairs != order.keep) continue;
+    const std::string stem = order.stem(pairs);
+    keep(found, stem);
     if (!found.what) continue;
     ++offenders;
-    std::filesystem::create_directories(order.folder);
-    const std::string stem = order.stem(pairs);
-    write_off(stem + "_a.off", found.a), write_off(stem + "_b.off", found.b);
-    std::printf("%s: off by %.3g, kept as %s_a.off and _b.off\n", found.what, found.value,
-                stem.c_str());
+    std::printf("%s: off by %.3g, kept as %s.prm, %s_a.off and _b.off\n", found.what, found.value,
+                stem.c_str(), stem.c_str());
   }
   std::printf("seed %llu: %ld pairs, %ld overlapping, %d offenders, %.0f s\n",
               static_cast<unsigned long long>(order.seed), pairs, overlapping, offenders,

@@ -13,6 +13,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["TRACKBED"]
+FUZZERS = os.environ.get("FUZZERS", "")  # the folder they are in
 HERE = pathlib.Path(__file__).resolve().parent
 # Not the same in two runs of the same scene: how long they took.
 CLOCK = {"timing.csv", "summary.csv"}
@@ -966,6 +967,19 @@ class GoesWrong(SceneTest):
         self.assertRegex(done.stderr, r"step 0 .*grain 0 and grain 1 overlap .*100 % of its volume lies inside")
         # So it does alone.
         self.assertIn("step 0", self.trackbed("run", "a/offender.prm", "--output", "b", exit_code=1).stderr)
+
+    def test_a_pair_that_a_fuzzer_keeps(self):
+        # As an offender would be: it runs, the two touch, and no energy is made.
+        for name, pair in (("fuzz_pairs", 3), ("fuzz_dilated", 0)):
+            subprocess.run([pathlib.Path(FUZZERS) / name, "--pairs", str(pair + 1), "--keep", str(pair), "--output", name],
+                           cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            scene = f"{name}/seed_1_pair_{pair}.prm"
+            self.assertIn("valid", self.trackbed("check", scene).stdout)
+            self.trackbed("run", scene, "--output", name + "_run")
+            energy = rows(self.folder / (name + "_run") / "energy.csv")
+            most = max(float(row["kinetic_J"]) for row in energy)
+            self.assertGreater(most, 0)
+            self.assertLess(abs(float(energy[-1]["closure_J"])), 1e-2 * most)
 
 
 if __name__ == "__main__":

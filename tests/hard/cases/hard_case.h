@@ -25,13 +25,14 @@ struct Measured {
 /// What of a setting a case depends on.
 /// `all_shapes`: polyhedra under the pair laws and round grains under theirs; `level_shapes`: of
 /// these the ones that lie flat or on a ball; `pair_laws`: the laws of polyhedra, shapes of its
-/// own; `once`: nothing.
+/// own; `dilated`: dilated polyhedra under the round laws; `once`: nothing.
 enum class Over {
   flat_shapes,
   shapes,
   round_shapes,
   all_shapes,
   level_shapes,
+  dilated,
   pair_laws,
   schedules,
   once
@@ -57,6 +58,7 @@ const std::vector<Case>& impact_cases();
 const std::vector<Case>& edge_cases();
 const std::vector<Case>& rest_cases();
 const std::vector<Case>& round_cases();
+const std::vector<Case>& flat_cases();
 const std::vector<Case>& step_cases();
 const std::vector<Case>& solid_cases();
 const std::vector<Case>& facet_cases();

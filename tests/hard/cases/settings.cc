@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/round_forces.h"
 #include "dem/grain/voronoi.h"
@@ -24,6 +26,7 @@ std::vector<Group> groups() {
   return {{"Edges and corners", edge_cases()},
           {"Faces, at rest, on a path", rest_cases()},
           {"Round grains", round_cases()},
+          {"Faces of dilated grains", flat_cases()},
           {"Impacts and starts", impact_cases()},
           {"Thin solids, spare corners, one in another", solid_cases()},
           {"Over facets", facet_cases()},
@@ -57,6 +60,14 @@ std::vector<Setting> settings(const Case& c) {
   if (c.over == Over::pair_laws) {
     for (const auto& law : dem::pair_law_names())
       for (const double share : shares) list.push_back({"", law, share, "", 1});
+    return list;
+  }
+  if (c.over == Over::dilated) {
+    std::vector<std::string> laws = dem::round_law_names();
+    std::stable_partition(laws.begin(), laws.end(),
+                          [](const std::string& law) { return law == "hertz_flat"; });
+    for (const auto& law : laws)
+      for (const double share : shares) list.push_back({"dilated", law, share, "", 1});
     return list;
   }
   std::vector<std::string> shapes;
