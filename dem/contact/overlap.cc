@@ -8,7 +8,7 @@
 namespace trackbed::dem {
 namespace {
 
-constexpr double kFlatsSure = 1e-10;  // of the volume
+constexpr double kFlatsSure = 1e-12;  // of the volume
 
 // Moments of a tetrahedron about the mean of its corners, where the first moments vanish:
 // V/20 sum_i y_i y_i^T.

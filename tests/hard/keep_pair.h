@@ -42,7 +42,8 @@ inline void keep_pair(PackedGrains pair, const PairLaw& law, const std::string& 
   std::ofstream prm(stem + ".prm");
   prm << "set Title = Offender\n"
       << "subsection Contact\n  set Law = " << law.law << "\n  set Round law = " << law.round_law
-      << "\n  set Contact modulus = " << law.modulus << "\n  set Restitution = 1\nend\n"
+      << "\n  set Contact modulus = " << law.modulus
+      << "\n  set Restitution = 1\n  set Largest overlap = 0.5\nend\n"
       << "subsection Grains\n  set Density = " << kDensity << "\n  set Friction = 0\nend\n"
       << "subsection Numerics\n  set Time step = " << step_of_pair(pair, law, kDensity) << "\nend\n"
       << "subsection Replay\n  set Bodies = " << fs::path(stem).filename().string()

@@ -64,7 +64,7 @@ Measured from_flat_to_tilted(const Setting& set) {
   double worst = 0;
   for (double angle = 1e-6; angle < .5; angle *= 1.3)
     worst = std::max(worst, worst_jump(set, angle) / (1e-6 * angle * kSize / (1e-3 * kSize)));
-  return {worst, 10};
+  return {worst, 1};
 }
 Curve force_over_tilt(const Setting& set) {
   Curve c{"tilt [rad]", "force [N]", true, true, {}};
@@ -125,7 +125,8 @@ Measured closed_path(const Setting& set) {
 
 Measured turned_pair(const Setting& set) {
   Scene s = flat(set, 10, 1e-3 * kSize);
-  return {change_of_a_turned_pair(s, 1e-3 * kSize), 1e-10};
+  // What rounding tilts the pair by moves the point of a crowned face by 1/crown as much.
+  return {change_of_a_turned_pair(s, 1e-3 * kSize), 1e-9};
 }
 
 Measured base_size(const Setting& set) {
@@ -141,21 +142,24 @@ Measured stack(const Setting& set) {
   s.resistance.torsion = 1;
   const dem::GrainShape g = grain("dilated", kSize);
   const int shape = s.shapes.add(g);
+  const Vec3 aside = .02 * kSize * Vec3(1, .7, 0);  // of every other block: no walls that coincide
   for (int i = 0; i < 5; ++i)
-    dem::add_grain(s.bodies, s.shapes, shape, 0, 2600, {0, 0, kSize * (i + .5)}, g.turn);
+    dem::add_grain(s.bodies, s.shapes, shape, 0, 2600, i % 2 * aside + Vec3(0, 0, kSize * (i + .5)),
+                   g.turn);
   s.add_floor(1, 1);
   s.prepare();
   s.context.dt = .2 * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 2}).dt;
   s.context.local_damping = .5;
   s.run(1);
+  const std::vector<Vec3> x = s.bodies.x;
+  const std::vector<dem::Mat3> R = s.bodies.R;
   s.context.local_damping = 0;
   s.run(s.time + 2);
   double worst = 0;
-  for (int i = 0; i < 5; ++i) {
-    const double turned = (s.bodies.R[i] - g.turn.toRotationMatrix()).norm() / std::sqrt(2.);
-    worst = std::max({worst, s.bodies.x[i].head<2>().norm() / kSize, turned, s.bodies.v[i].norm()});
-  }
-  return {worst, 1e-4};
+  for (int i = 0; i < 5; ++i)
+    worst = std::max({worst, (s.bodies.x[i] - x[i]).norm() / kSize,
+                      (s.bodies.R[i] - R[i]).norm() / std::sqrt(2.), s.bodies.v[i].norm()});
+  return {worst, 1e-4, set.law == "hertz_flat"};  // on crowned faces they rock on
 }
 
 }  // namespace

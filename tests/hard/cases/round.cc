@@ -97,14 +97,17 @@ std::vector<double> changes(F&& f, double from, double to) {
   std::vector<double> places;
   double low = from;
   for (int k = 1; k <= parts; ++k) {
-    double a = low, b = low = from + k * (to - from) / parts;
-    const auto before = f(a);
-    if (before == f(b)) continue;
-    while (b - a > 1e-13 * (to - from)) {
-      const double middle = (a + b) / 2;
-      (f(middle) == before ? a : b) = middle;
+    const double high = from + k * (to - from) / parts;
+    const auto after = f(high);
+    for (auto before = f(low); before != after; before = f(low)) {  // one change after the other
+      double a = low, b = high;
+      while (b - a > 1e-13 * (to - from)) {
+        const double middle = (a + b) / 2;
+        (f(middle) == before ? a : b) = middle;
+      }
+      places.push_back(low = b);
     }
-    places.push_back(b);
+    low = high;
   }
   places.push_back(to);
   return places;
