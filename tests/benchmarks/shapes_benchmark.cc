@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <iomanip>
 #include <random>
 
 #include "bed_file.h"
@@ -198,8 +199,8 @@ int main(int argc, char** argv) {
       std::printf("  %d thread%s: %.3f us a touching pair, %.3f us a grain;", threads,
                   threads > 1 ? "s" : "", 1e6 * seconds, 1e6 * step / grains);
       print_stages(s, threads, steps / 4 + 1);
-      csv << name << "," << grains << "," << count_contacts(s.pairs) << "," << s.context.dt << ","
-          << threads << "," << seconds << "\n";
+      csv << std::quoted(std::string(name)) << "," << grains << "," << count_contacts(s.pairs)
+          << "," << s.context.dt << "," << threads << "," << seconds << "\n";
     }
     std::printf("  %.3f us a near pair that does not touch\n", 1e6 * time_near(s, steps / 4 + 1));
     std::fflush(stdout);
