@@ -13,9 +13,9 @@ namespace trackbed::coupling {
 ///     force that each takes: a positive pressure over the facets, so that such springs are no
 ///     softer than the contact. What mass it opposes to them is the structure's affair
 ///     (fem::Structure::contact_bound): a body of modes or of consistent mass as a whole, others by
-///     their lightest node. A predicted surface that a solve then moves elsewhere is allowed half
-///     the step: two masses grow there by at most 5e-3 a step, beyond it soon by more than
-///     friction takes away.
+///     their lightest node. A predicted surface that a solve then moves elsewhere is allowed a
+///     third of the step: two masses grow there by at most 1e-3 a step, at half of it by 5e-3,
+///     which a bed of spheres under a sleeper did not bear.
 /// Structures set a limit of their own only where the schedule wants them explicit
 /// (schedule_limit). With n grain steps per exchange the surface's omega (its contacts alone) must
 /// also allow the exchange: n dt <= 2/omega (two masses are damped up to n omega dt = 2.2 and grow
