@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/trackbed/simulation/grains.h"
 #include "fem/bending.h"
 
 namespace trackbed::apps {
@@ -29,7 +30,10 @@ void decide_sleeper(Scene& scene) {
 
 }  // namespace
 
-bool stores_energy(const Scene& scene) { return scene.contact.law != "shao2017"; }
+bool stores_energy(const Scene& scene) {
+  const bool polyhedra = has_shape(scene, "polyhedron") || !scene.packing.start_from.empty();
+  return scene.contact.law != "shao2017" || !polyhedra;
+}
 
 void decide(Scene& scene) {
   decide_sleeper(scene);

@@ -10,8 +10,8 @@ namespace trackbed::apps {
 /// as stiff as ballast is at most (200 MPa), which errs on the side of elastic.
 void decide(Scene&);
 
-/// Whether the contact law is a gradient of stored energy, so that the ledger can close. Under
-/// shao2017 (Eq. 17 as printed) a closed path does work.
+/// Whether the laws of all contacts are gradients of stored energy, so that the ledger can close.
+/// Under shao2017 (Eq. 17 as printed) a closed path of two polyhedra does work.
 bool stores_energy(const Scene&);
 
 }  // namespace trackbed::apps

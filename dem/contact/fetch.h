@@ -5,6 +5,8 @@
 
 namespace trackbed::dem {
 
+inline constexpr int kManyPairs = 4000;  // fewer stay in the processor's own cache
+
 [[gnu::always_inline]] inline void fetch_lines(const void* p, int lines) {
   for (int k = 0; k < lines; ++k) __builtin_prefetch(static_cast<const char*>(p) + 64 * k);
 }

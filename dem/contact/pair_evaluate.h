@@ -183,7 +183,7 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
   constexpr int share = 32;  // of a thread at a time; the next pair beyond it may be another's
   constexpr int kEntriesAhead = 6;
   const int all = pairs.end(PairKind::polyhedra), shares = (all + share - 1) / share;
-  const bool many = all > 4000;  // fewer stay in the processor's own cache
+  const bool many = all > kManyPairs;
 #pragma omp parallel for schedule(dynamic) num_threads(c.threads) if (c.threads > 1 && shares > 1)
   for (int s = 0; s < shares; ++s) {
     int awake[share], count = 0;

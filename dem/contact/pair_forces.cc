@@ -38,9 +38,9 @@ namespace {
 }  // namespace
 
 void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
-  constexpr int kAhead = 64, kManyEnds = 8000;  // fewer stay in the processor's own cache
+  constexpr int kAhead = 64;
   const int threads = c.threads_for(b.size()), ends = static_cast<int>(pairs.incident.size());
-  const bool many = ends > kManyEnds;
+  const bool many = ends > 2 * kManyPairs;
   // Pairs of balls have no couple unless something resists their turning.
   const int balls = pairs.begin(PairKind::balls),
             others = pairs.resists ? balls : pairs.end(PairKind::points);

@@ -42,6 +42,14 @@ inline Mesh uneven_mesh(int nx, int ny) {
   return m;
 }
 
+/// A level mesh whose nodes are pushed up and down, as a bent FE surface has them.
+inline Mesh wavy_mesh(int n, double height) {
+  Mesh m = flat_mesh(n, n, -1, 1, -1, 1);
+  Random random(4);
+  for (Vec3& p : m.nodes) p += Vec3(0, 0, height * random.uniform(-1, 1));
+  return m;
+}
+
 /// The flat mesh folded down by 90 degrees along x = 0, as at a sleeper's edge: what lies at x > 0
 /// becomes the side below the edge.
 inline Mesh edge_mesh(int nx, int ny, double half) {

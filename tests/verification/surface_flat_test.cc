@@ -35,14 +35,6 @@ struct FlatScene : PatchScene {
   const PartView& part() const { return shapes.flat_part(bodies.shape[0], 0); }
 };
 
-// Nodes of a level mesh pushed up and down: facets that are nearly parallel to a face on it.
-Mesh uneven_height(int n, double height) {
-  Mesh m = flat_mesh(n, n, -1, 1, -1, 1);
-  Random random(4);
-  for (Vec3& p : m.nodes) p += Vec3(0, 0, height * random.uniform(-1, 1));
-  return m;
-}
-
 // The whole face of area A, by hand: Shao's Eq. 17 and Hertz of the deepest ball with its crown.
 TEST(FlatOnSurface, face_is_by_area_on_however_many_facets) {
   const double r = .05, depth = 1e-4, area = .3 * .2;
@@ -107,7 +99,7 @@ TEST(FlatOnSurface, forces_are_the_energys_gradient) {
   int flats = 0;
   for (int k = 0; k < 15; ++k) {
     static constexpr double unevenness[] = {1e-12, 1e-4, 2e-3};
-    FlatScene s(uneven_height(4, unevenness[k % 3]));
+    FlatScene s(wavy_mesh(4, unevenness[k % 3]));  // facets nearly parallel to a face
     const GrainShape g =
         dilated(k % 2 ? make_box({.3, .2, .4}) : test::scaled(random_hull(random, 12), .25), .05);
     s.add_shape(g, Vec3::Zero(), Quat::Identity());

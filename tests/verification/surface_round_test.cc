@@ -25,14 +25,6 @@ struct RoundScene : PatchScene {
 
 GrainShape dilated_box() { return as_grain(make_dilated_shape({make_box({.3, .2, .4}), .05})); }
 
-// A mesh with nodes pushed about, as a bent FE surface has them.
-Mesh wavy(int n, double height) {
-  Mesh m = flat_mesh(n, n, -1, 1, -1, 1);
-  Random random(4);
-  for (Vec3& p : m.nodes) p += Vec3(0, 0, height * random.uniform(-1, 1));
-  return m;
-}
-
 TEST(RoundOnSurface, slides_over_element_edges_without_a_bump) {
   const Mesh m = uneven_mesh(9, 7);
   for (const bool sphere : {true, false}) {
@@ -68,7 +60,7 @@ TEST(RoundOnSurface, slides_over_element_edges_without_a_bump) {
 TEST(RoundOnSurface, nodal_forces_are_the_energys_gradient) {
   for (const bool sphere : {true, false}) {
     Random random(9);
-    RoundScene s(wavy(4, .05), 1e8);
+    RoundScene s(wavy_mesh(4, .05), 1e8);
     const GrainShape shape = sphere ? sphere_shape(.25) : dilated_box();
     s.add_shape(shape, Vec3::Zero(), Quat(Eigen::AngleAxisd(.7, Vec3(.3, .5, -.8).normalized())));
     for (int k = 0; k < 12; ++k) {
