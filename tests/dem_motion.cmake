@@ -22,6 +22,7 @@ motion_test(pairs_resistance unit)
 motion_test(motion_damping unit)
 motion_test(motion_together unit)
 motion_test(pairs_candidates unit)
+motion_test(pairs_shares unit)
 
 add_library(settled_bed STATIC ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/settled_bed.cc)
 target_include_directories(settled_bed PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks

@@ -1,6 +1,4 @@
 // Command line of `trackbed`. Exit codes: 0 success, 1 a run that failed, 2 wrong usage or input.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 
 #include "apps/trackbed/commands.h"
 #include "base/error.h"
+#include "base/prepare_process.h"
 #include "dem/grain/nearest_name.h"
 #include "fem/session.h"
 
@@ -57,13 +56,6 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int
   for (auto& c : text)
     if (c == '\n') c = ' ';
   return text + " (see trackbed" + name + " --help)";
-}
-
-/// Threads that wait for each other in a busy loop are ruinous where a core is shared (a hundred
-/// times slower was seen); OpenMP reads how to wait before main, so the program starts once more.
-void wait_passively(char** argv) {
-  if (::getenv("OMP_WAIT_POLICY") || ::setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
-  ::execv("/proc/self/exe", argv);  // returns only if it cannot: then as it is
 }
 
 /// mpirun tells each rank how many there are; without it MPI starts with the first structure.
@@ -201,7 +193,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  wait_passively(argv);
+  trackbed::prepare_process(argv);
   join_ranks();
   try {
     return run_program(argc, argv);

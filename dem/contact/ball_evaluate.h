@@ -4,6 +4,7 @@
 #include "dem/contact/eight_contacts.h"
 #include "dem/contact/fetch.h"
 #include "dem/contact/round_release.h"
+#include "dem/contact/shares.h"
 
 namespace trackbed::dem {
 
@@ -121,8 +122,8 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
   const int stretches = (end - begin + kStretch - 1) / kStretch;
   const bool centred = kind == PairKind::balls, many = end - begin > kManyPairs;
   const int threads = c.threads_for(end - begin);  // a pair takes no longer than a body
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-  for (int s = 0; s < stretches; ++s) {
+  const int busy = (pairs.busy_end(kind) - begin + kStretch - 1) / kStretch;
+  by_shares(stretches, busy, threads, [&](int s) {
     const auto evaluate = [&](const Eightfold& e) {
       evaluate_balls<Law, friction>(b, shapes, materials, c, travel, centred, e, pairs);
     };
@@ -143,10 +144,10 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
         awake.count = 0;
       }
     }
-    if (awake.count == 0) continue;
+    if (awake.count == 0) return;
     awake.complete();
     evaluate(awake);
-  }
+  });
 }
 
 }  // namespace trackbed::dem

@@ -1,8 +1,6 @@
 // The pair loop for one law, with or without friction. Included by the files that make the
 // instances, nowhere else.
 #pragma once
-#include <omp.h>
-
 #include <algorithm>
 
 #include "dem/contact/fetch.h"
@@ -11,6 +9,7 @@
 #include "dem/contact/overlap_feature.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/release.h"
+#include "dem/contact/shares.h"
 #include "dem/contact/simple_contact.h"
 
 namespace trackbed::dem {
@@ -184,8 +183,8 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
   constexpr int kEntriesAhead = 6;
   const int all = pairs.end(PairKind::polyhedra), shares = (all + share - 1) / share;
   const bool many = all > kManyPairs;
-#pragma omp parallel for schedule(dynamic) num_threads(c.threads) if (c.threads > 1 && shares > 1)
-  for (int s = 0; s < shares; ++s) {
+  const int busy = (pairs.busy_end(PairKind::polyhedra) + share - 1) / share;
+  by_shares(shares, busy, c.threads, [&](int s) {
     int awake[share], count = 0;
     for (int p = s * share; p < std::min(all, (s + 1) * share); ++p)
       if (!asleep(travel, pairs, p)) awake[count++] = p;
@@ -196,7 +195,7 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
       evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
                                    pairs.workspaces[omp_get_thread_num()], pairs, awake[k]);
     }
-  }
+  });
 }
 
 /// The two instances of a law.

@@ -38,6 +38,10 @@ void Pairs::index_bodies(int bodies) {
   kind_first.fill(0);
   for (const std::uint8_t k : kind) ++kind_first[k + 1];
   std::partial_sum(kind_first.begin(), kind_first.end(), kind_first.begin());
+  for (int k = 0; k < kPairKinds; ++k) {
+    kind_busy[k] = kind_first[k + 1];
+    while (kind_busy[k] > kind_first[k] && !touching[kind_busy[k] - 1]) --kind_busy[k];
+  }
   first.assign(bodies + 1, 0);
   for (int p = 0; p < size(); ++p) ++first[a[p] + 1], ++first[b[p] + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());

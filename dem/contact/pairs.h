@@ -78,10 +78,12 @@ struct Pairs {
   std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
 
   std::array<int, kPairKinds + 1> kind_first{};  ///< range of each kind (index_bodies)
+  std::array<int, kPairKinds> kind_busy{};  ///< one past the last that touched then (index_bodies)
 
   int size() const { return static_cast<int>(a.size()); }
   int begin(PairKind k) const { return kind_first[static_cast<int>(k)]; }
   int end(PairKind k) const { return kind_first[static_cast<int>(k) + 1]; }
+  int busy_end(PairKind k) const { return kind_busy[static_cast<int>(k)]; }
   /// Of those that are not polyhedra.
   int round() const { return size() - end(PairKind::polyhedra); }
   PairKey key(int p) const {
@@ -95,7 +97,7 @@ struct Pairs {
   /// New entry p takes over all of the old entry old[p], or zeros where that is -1.
   void rearrange(const std::vector<int>& old);
   void keep_resistance();         ///< from here on with the moments against turning
-  void index_bodies(int bodies);  ///< rebuilds first, incident, kind_first
+  void index_bodies(int bodies);  ///< rebuilds first, incident, kind_first, kind_busy
 };
 
 /// Calls f(name, array) for each array that a checkpoint must hold so that the next step is

@@ -2,8 +2,6 @@
 // friction; those over pairs of balls are in ball_evaluate.h. Included by the file that makes the
 // instances, nowhere else.
 #pragma once
-#include <omp.h>
-
 #include "dem/contact/ball_evaluate.h"
 #include "dem/contact/ball_features.h"
 #include "dem/contact/flat_response.h"
@@ -131,9 +129,8 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   if (begin == end) return;
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
-#pragma omp parallel for schedule(dynamic) \
-    num_threads(c.threads) if (c.threads > 1 && stretches > 1)
-  for (int s = 0; s < stretches; ++s) {
+  const int busy = (pairs.busy_end(Geometry::kind) - begin + kStretch - 1) / kStretch;
+  by_shares(stretches, busy, c.threads, [&](int s) {
     Found found;
     for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {
       if (asleep(travel, pairs, p)) continue;
@@ -143,7 +140,7 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
     }
     if (found.pair.count > 0)
       respond_to<Geometry, Law, friction>(b, shapes, materials, c, pairs, found);
-  }
+  });
 }
 
 template <class Law, bool friction>

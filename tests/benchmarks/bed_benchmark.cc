@@ -12,59 +12,58 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 
+#include "base/prepare_process.h"
+#include "in_turn.h"
 #include "settled_bed.h"
 
 using namespace trackbed::dem;
 
 namespace {
 
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return t.tv_sec + 1e-9 * t.tv_nsec;
-}
-
 double memory() {  // allocated now [B]
   const auto info = mallinfo2();
   return double(info.uordblks) + double(info.hblkhd);
 }
 
-double median_step(Scene& s, int steps) {  // [s]
+struct Copies {
+  Scene scene;
+  double bytes = 0;
   std::vector<double> seconds;
-  for (int k = 0; k < steps; ++k) {
-    const double start = now();
-    s.step();
-    seconds.push_back(now() - start);
-  }
-  std::nth_element(seconds.begin(), seconds.begin() + steps / 2, seconds.end());
-  return seconds[steps / 2];
-}
+};
 
 void growth(const Scene& bed, int most) {
-  std::printf("| grains | touching pairs | us per touching pair | us per grain | kB per grain |\n");
-  std::printf("|---|---|---|---|---|\n");
-  double first = 0, last = 0, first_grains = 0, last_grains = 0;
-  std::vector<int> copies{1};
-  if (most > 3) copies.push_back(3);
-  if (most > 1) copies.push_back(most);
-  for (const int tiles : copies) {
+  std::vector<Copies> beds;
+  for (const int tiles : {1, 3, most}) {
+    if (tiles > most || (tiles == most && static_cast<int>(beds.size()) == most)) continue;
     const double before = memory();
-    Scene s = tiled(bed, tiles, tiles);
+    beds.push_back({tiled(bed, tiles, tiles), 0, {}});
+    Scene& s = beds.back().scene;
     s.step();
     s.candidates.rebuild(s.bodies, s.shapes, s.context, s.pairs);  // as a bed in motion searches
-    s.step();
-    const double seconds = median_step(s, tiles < most ? 40 : 15), grains = s.bodies.grains;
-    const int touching = count_contacts(s.pairs);
-    std::printf("| %.0f | %d | %.3f | %.3f | %.1f |\n", grains, touching, 1e6 * seconds / touching,
-                1e6 * seconds / grains, (memory() - before) / 1e3 / grains);
-    std::fflush(stdout);
-    if (tiles == 1) first = seconds, first_grains = grains;
-    last = seconds, last_grains = grains;
+    beds.back().bytes = memory() - before;
   }
-  std::printf("exponent of time per step in grains: %.3f\n",
-              std::log(last / first) / std::log(last_grains / first_grains));
+  constexpr int kRounds = 7;
+  const int last = static_cast<int>(beds.size()) - 1;
+  std::vector<double> exponents;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int k = 0; k <= last; ++k)
+      beds[k].seconds.push_back(median_step(beds[k].scene, k == last ? 9 : 41));
+    exponents.push_back(std::log(beds[last].seconds.back() / beds[0].seconds.back()) /
+                        std::log(double(beds[last].scene.bodies.grains) / bed.bodies.grains));
+  }
+  std::printf("| grains | touching pairs | us per touching pair | us per grain | kB per grain |\n");
+  std::printf("|---|---|---|---|---|\n");
+  for (const Copies& c : beds) {
+    const double seconds = median(c.seconds), grains = c.scene.bodies.grains;
+    const int touching = count_contacts(c.scene.pairs);
+    std::printf("| %.0f | %d | %.3f | %.3f | %.1f |\n", grains, touching, 1e6 * seconds / touching,
+                1e6 * seconds / grains, c.bytes / 1e3 / grains);
+  }
+  std::printf(
+      "exponent of time per step in grains: %.3f (median of %d rounds in turn; %.3f to %.3f)\n",
+      median(exponents), kRounds, *std::min_element(exponents.begin(), exponents.end()),
+      *std::max_element(exponents.begin(), exponents.end()));
 }
 
 struct Variant {
@@ -102,6 +101,7 @@ void effects(const Scene& bed, int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  trackbed::prepare_process(argv);
   const std::string what = argc > 1 ? argv[1] : "";
   if (what != "growth" && what != "effects") {
     std::fprintf(stderr,

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "base/prepare_process.h"
+#include "in_turn.h"
 #include "settled_bed.h"
 
 using namespace trackbed::dem;
@@ -13,9 +15,7 @@ namespace {
 
 // Processor time on one thread, so that a busy machine does not count; wall time on more.
 double now(int threads) {
-  timespec t;
-  clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
-  return t.tv_sec + 1e-9 * t.tv_nsec;
+  return seconds_of(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC);
 }
 
 void time_steps(Scene s, int threads, int steps) {
@@ -58,6 +58,7 @@ void time_steps(Scene s, int threads, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  trackbed::prepare_process(argv);
   BedSettings bed;
   bed.grains = argc > 1 ? std::atoi(argv[1]) : 1000;
   const int steps = argc > 2 ? std::atoi(argv[2]) : 300;
@@ -71,4 +72,5 @@ int main(int argc, char** argv) {
   std::printf("limits of the step: expected %.3e s, measured %.3e s (grain %d, %d contacts)\n",
               expected.dt, measured.dt, measured.body, measured.contacts);
   for (const int threads : {1, 2}) time_steps(s, threads, steps);
+  print_gain(gain_of_threads(s, 2), 2);
 }

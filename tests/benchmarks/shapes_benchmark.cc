@@ -13,8 +13,10 @@
 #include <iomanip>
 #include <random>
 
+#include "base/prepare_process.h"
 #include "bed_file.h"
 #include "dem/grain/voronoi.h"
+#include "in_turn.h"
 #include "motion_scene.h"
 
 using namespace trackbed::dem;
@@ -25,9 +27,7 @@ constexpr double kSize = .045, kDensity = 2600;
 
 // Processor time on one thread, so that a busy machine does not count; wall time on more.
 double now(int threads) {
-  timespec t;
-  clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
-  return t.tv_sec + 1e-9 * t.tv_nsec;
+  return seconds_of(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC);
 }
 
 GrainShape clump_of_eight() {
@@ -161,6 +161,7 @@ double time_near(Scene s, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  trackbed::prepare_process(argv);
   const int grains = argc > 1 ? std::atoi(argv[1]) : 1000,
             steps = argc > 2 ? std::atoi(argv[2]) : 1000;
   const std::string folder = argc > 3 ? argv[3] : "", only = argc > 4 ? argv[4] : "";
@@ -202,6 +203,7 @@ int main(int argc, char** argv) {
       csv << std::quoted(std::string(name)) << "," << grains << "," << count_contacts(s.pairs)
           << "," << s.context.dt << "," << threads << "," << seconds << "\n";
     }
+    if (most_threads > 1) print_gain(gain_of_threads(s, most_threads), most_threads);
     std::printf("  %.3f us a near pair that does not touch\n", 1e6 * time_near(s, steps / 4 + 1));
     std::fflush(stdout);
   }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "base/prepare_process.h"
 #include "dem/grain/random.h"
 #include "dem/grain/voronoi.h"
 #include "surface_scene.h"
@@ -20,7 +21,8 @@ double seconds(int times, F&& f) {
 
 }  // namespace
 
-int main() {
+int main(int, char** argv) {
+  trackbed::prepare_process(argv);
   VoronoiParameters parameters;
   parameters.count = 100;
   const auto grains = voronoi_grains(parameters);

@@ -143,7 +143,7 @@ Scene heap(int row, int steps, int threads) {
 
 TEST(Together, the_same_bits_on_any_threads) {
   // The second is large enough for the passes that few bodies leave to one thread.
-  for (const auto [row, steps] : {std::pair(7, 300), std::pair(14, 20)}) {
+  for (const auto& [row, steps] : {std::pair(7, 300), std::pair(14, 20)}) {
     const Scene one = heap(row, steps, 1);
     for (const PairKind k : {PairKind::balls, PairKind::points, PairKind::point_core})
       EXPECT_GT(one.pairs.end(k) - one.pairs.begin(k), 200);
