@@ -3,10 +3,10 @@
 #pragma once
 #include <algorithm>
 
-#include "dem/contact/fetch.h"
 #include "dem/contact/friction.h"
 #include "dem/contact/normal_contact.h"
 #include "dem/contact/overlap_feature.h"
+#include "dem/contact/pair_fetch.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/release.h"
 #include "dem/contact/shares.h"
@@ -133,65 +133,25 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   pairs.tilt_stiffness[p] = tilt_stiffness(contact.shape, contact.response.stiffness);
 }
 
-// The data of the next pairs are asked for before they are needed: else much of a contact's time
-// is spent waiting for memory, body by body. Farther ahead they would push each other out again.
-//
-// Bodies and views of a pair, then its planes and vertices: the second reads what the first asked
-// for.
-[[gnu::always_inline]] inline void fetch_bodies(const Bodies& b, const ShapeTable& shapes,
-                                                const Pairs& pairs, int p) {
-  const int j = pairs.b[p];
-  fetch(b.x[j]), fetch(b.v[j]), fetch(b.turn[j]);
-  fetch_lines(&b.R[j], 2);
-  fetch_lines(&shapes.part(b.shape[j], pairs.part_b[p]), 1);
-  fetch_lines(&shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]), 1);
-}
-
-/// Its own entries: they lie in a row, but in more arrays than the processor follows by itself.
-[[gnu::always_inline]] inline void fetch_entries(const Pairs& pairs, int p) {
-  for (const auto* v :
-       {&pairs.axis, &pairs.friction, &pairs.arm_a, &pairs.arm_b, &pairs.force, &pairs.couple})
-    fetch_lines(&(*v)[p], 1);
-  for (const auto* v : {&pairs.wake, &pairs.friction_stiffness, &pairs.normal_force, &pairs.energy,
-                        &pairs.friction_energy, &pairs.friction_loss, &pairs.area, &pairs.depth,
-                        &pairs.stiffness, &pairs.tilt_stiffness})
-    fetch_lines(&(*v)[p], 1);
-  for (const auto* v : {&pairs.a, &pairs.b, &pairs.part_a, &pairs.part_b, &pairs.feature,
-                        &pairs.faces_a, &pairs.faces_b})
-    fetch_lines(&(*v)[p], 1);
-}
-
-[[gnu::always_inline]] inline void fetch_shapes(const Bodies& b, const ShapeTable& shapes,
-                                                const Pairs& pairs, int p) {
-  const SimpleFeature f = SimpleFeature::of(pairs.feature[p]);
-  const auto fetch_view =
-      [](const ConvexView& v, bool vertex, int i) __attribute__((always_inline)) {
-    fetch_lines(v.nx, (v.faces + 7) / 8 * 4);  // all four of the planes
-    if (vertex) fetch_lines(Star(v, i).at, 2);
-  };
-  fetch_view(shapes.part(b.shape[pairs.a[p]], pairs.part_a[p]).core,
-             f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_a, f.a);
-  fetch_view(shapes.part(b.shape[pairs.b[p]], pairs.part_b[p]).core,
-             f.kind == SimpleFeature::edges || f.kind == SimpleFeature::vertex_of_b, f.b);
-}
-
 template <class Law, bool friction>
 void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                     const StepContext& c, const std::vector<double>& travel, Pairs& pairs) {
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
-  constexpr int share = 32;  // of a thread at a time; the next pair beyond it may be another's
-  constexpr int kEntriesAhead = 6;
-  const int all = pairs.end(PairKind::polyhedra), shares = (all + share - 1) / share;
+  const int all = pairs.end(PairKind::polyhedra);
   const bool many = all > kManyPairs;
-  const int busy = (pairs.busy_end(PairKind::polyhedra) + share - 1) / share;
-  by_shares(shares, busy, c.threads, [&](int s) {
-    int awake[share], count = 0;
+  // Of a thread at a time. The next pair beyond may be another's, so that nothing of it is asked
+  // for: few beginnings where memory is far, even shares where pairs are few.
+  constexpr int most = 256, kEntriesAhead = 6;
+  const int share = many ? most : 32;
+  const auto shares = [share](int n) { return (n + share - 1) / share; };
+  by_shares(shares(all), shares(pairs.busy_end(PairKind::polyhedra)), c.threads, [&](int s) {
+    int awake[most], count = 0;
     for (int p = s * share; p < std::min(all, (s + 1) * share); ++p)
       if (!asleep(travel, pairs, p)) awake[count++] = p;
     for (int k = 0; k < count; ++k) {
       if (many && awake[k] + kEntriesAhead < all) fetch_entries(pairs, awake[k] + kEntriesAhead);
-      if (k + 2 < count) fetch_bodies(b, shapes, pairs, awake[k + 2]);
-      if (k + 1 < count) fetch_shapes(b, shapes, pairs, awake[k + 1]);
+      if (k + 3 < count) fetch_bodies(b, shapes, pairs, awake[k + 3]);
+      if (k + 2 < count) fetch_shapes(b, shapes, pairs, awake[k + 2]);
       evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
                                    pairs.workspaces[omp_get_thread_num()], pairs, awake[k]);
     }

@@ -1,6 +1,7 @@
 // Shapes as the contact kernel reads them: one flat structure of arrays for all shapes, vertices
 // and planes padded to eight by repeating the last one.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -19,6 +20,7 @@ struct ConvexView {
   const double* stars = nullptr;
   double radius = 0;  ///< about the body's origin
   int faces = 0, star_size = 0;
+  bool planes_padded = false;                             ///< optional: to a multiple of eight
   const double *x = nullptr, *y = nullptr, *z = nullptr;  ///< vertices, padded
   int vertices = 0, padded = 0;
   const std::uint16_t* loop_begin = nullptr;  ///< faces+1 entries into loop
@@ -31,9 +33,8 @@ struct ConvexView {
   const std::uint16_t *neighbor = nullptr, *left_face = nullptr;
   const std::uint64_t* vertex_faces = nullptr;  ///< vertices * face_words
   int face_words = 0;
-  /// Optional: planes are padded to a multiple of eight, and each face's corners, eight x, eight y,
-  /// eight z, the last repeated (null where a face has more than eight).
-  bool planes_padded = false;
+  /// Optional: each face's corners, eight x, eight y, eight z, the last repeated (null where a face
+  /// has more than eight).
   const double* corners = nullptr;
 };
 
@@ -69,6 +70,8 @@ struct alignas(32) Ball {
   Vec3 centre;  ///< body frame [m]
   double radius;
 };
+
+static_assert(offsetof(ConvexView, planes_padded) < 64, "see ConvexView");
 
 class ShapeTable {
  public:

@@ -952,6 +952,16 @@ class GoesWrong(SceneTest):
         self.trackbed("run", "a/offender.prm", "--output", "b")
         self.assertGreater(float(rows(self.folder / "b" / "history.csv")[-1]["contacts"]), 0)
 
+    def test_a_grain_too_deep_in_a_structure(self):
+        line = self.stopped("a", change={"Sleeper/Model": "elastic", "Loading/Largest": "5e6"})
+        self.assertRegex(line, r"grain \d+ and the (sleeper|subgrade) overlap by .* % of the grain's size \(allowed 20 %\)")
+        self.assertRegex(line, r"Grain \d+ and a held block in place of the (sleeper|subgrade) alone, .*trackbed run a/offender.prm")
+        # The block goes on as the surface did: it works on the grain, no energy is made.
+        self.trackbed("run", "a/offender.prm", "--output", "b")
+        end = rows(self.folder / "b" / "energy.csv")[-1]
+        self.assertGreater(float(end["work_J"]), 0)
+        self.assertLess(abs(float(end["closure_J"])), 1e-2 * float(end["work_J"]))
+
     def test_a_grain_inside_another(self):
         def box(edge):
             corners = [f"{x} {y} {z}" for x in (0, edge) for y in (0, edge) for z in (0, edge)]

@@ -16,9 +16,8 @@ namespace {
 
 constexpr int kSteps = 400;  // four times what lies between two looks at a run's state
 
-bool finite(const dem::Bodies& b, int i) {
-  return b.x[i].allFinite() && b.q[i].coeffs().allFinite() && b.v[i].allFinite() &&
-         b.omega[i].allFinite();
+bool finite(const Offender& o) {
+  return o.x.allFinite() && o.q.coeffs().allFinite() && o.v.allFinite() && o.omega.allFinite();
 }
 
 void write_bodies(const dem::PackedGrains& pair, const std::string& stem) {
@@ -62,25 +61,53 @@ void place_bodies(Run& run) {
 
 }  // namespace
 
-std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies& state, int a,
-                           int b, const std::string& folder) {
-  if (b < 0 || a == b || std::max(a, b) >= state.size() || !finite(state, a) || !finite(state, b))
-    return "";
+Offender offender_of(const Run& run, const dem::Bodies& state, int i) {
+  return {run.world.shapes.shape(state.shape[i]),
+          state.material[i],
+          state.x[i],
+          state.v[i],
+          state.omega[i],
+          state.q[i],
+          i >= state.grains};
+}
+
+Offender surface_at(const Run& run, const coupling::Surface& s, int contact, double ago) {
+  const dem::PatchContacts& k = s.contacts;
+  const dem::Bodies& b = run.world.bodies;
+  dem::Vec3 velocity = dem::Vec3::Zero();
+  double borne = 0;
+  for (const auto& [node, force] : k.nodal[contact]) {
+    velocity += force.norm() * s.patch.velocity[node];
+    borne += force.norm();
+  }
+  if (borne > 0) velocity /= borne;
+  const double edge = 4 * run.world.shapes.shape(b.shape[k.grain[contact]]).radius;
+  const dem::Vec3 normal = k.normal_force[contact].normalized();
+  Offender o;
+  o.shape = dem::make_grain_shape(dem::make_box(dem::Vec3::Constant(edge)));
+  o.material = s.patch.material;
+  o.v = velocity, o.omega = dem::Vec3::Zero();
+  o.q = dem::Quat::FromTwoVectors(dem::Vec3::UnitZ(), normal) * o.shape.turn;
+  o.x = k.point[contact] - ago * velocity - edge / 2 * normal;
+  o.held = true;
+  return o;
+}
+
+std::string write_offender(const Run& run, const Stage& stage, const Offender& a, const Offender& b,
+                           const std::string& who, const std::string& folder) {
+  if (!finite(a) || !finite(b)) return "";
   const coupling::World& w = run.world;
-  const auto& shape = [&](int i) { return w.shapes.shape(state.shape[i]); };
   dem::PackedGrains pair;
-  pair.add(shape(a), state.x[a], state.q[a]);
-  pair.add(shape(b), state.x[b] + dem::nearest_image(state.x[a], state.x[b], run.layout.period),
-           state.q[b]);
-  for (dem::GrainShape& s : pair.shape)  // of a wall or plate no sieve size is known
+  pair.add(a.shape, a.x, a.q);
+  pair.add(b.shape, b.x + dem::nearest_image(a.x, b.x, run.layout.period), b.q);
+  for (dem::GrainShape& s : pair.shape)  // of a wall, plate or surface no sieve size is known
     if (!(s.sieve_size > 0)) s.sieve_size = std::cbrt(s.volume);
   std::ostringstream motion, held;
   motion.precision(17);
-  for (const int i : {a, b}) {
-    const dem::Vec3 &v = state.v[i], &o = state.omega[i];
-    motion << (i == a ? "" : ", ") << v.x() << ", " << v.y() << ", " << v.z() << ", " << o.x()
-           << ", " << o.y() << ", " << o.z();
-    if (i >= state.grains) held << (held.tellp() > 0 ? ", " : "") << (i == a ? 0 : 1);
+  for (const Offender* o : {&a, &b}) {
+    motion << (o == &a ? "" : ", ") << o->v.x() << ", " << o->v.y() << ", " << o->v.z() << ", "
+           << o->omega.x() << ", " << o->omega.y() << ", " << o->omega.z();
+    if (o->held) held << (held.tellp() > 0 ? ", " : "") << (o == &a ? 0 : 1);
   }
   const std::string stem = folder + "/offender";
   try {
@@ -90,7 +117,7 @@ std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies
   }
 
   // The contact as it was between these two materials.
-  const dem::PairMaterial& m = w.materials(state.material[a], state.material[b]);
+  const dem::PairMaterial& m = w.materials(a.material, b.material);
   std::ostringstream out;
   out.precision(17);
   const auto set = [](const std::string& key, const auto& value) {
@@ -99,8 +126,8 @@ std::string write_offender(const Run& run, const Stage& stage, const dem::Bodies
     line << "  set " << key << " = " << value << "\n";
     return line.str();
   };
-  out << "# Bodies " << a << " and " << b << " of a run that went wrong in stage '" << stage.name
-      << "' at step " << w.step << ", alone.\nset Title = Offender\n";
+  out << "# " << who << " of a run that went wrong in stage '" << stage.name << "' at step "
+      << w.step << ", alone.\nset Title = Offender\n";
   const auto& values = run.scene.values;
   std::string contact =
       set("Contact modulus", m.modulus) + set("Tangential ratio", m.tangential_ratio) +

@@ -199,13 +199,24 @@ struct Way {
 
   // The same message with the pair's own scene, which is written.
   [[noreturn]] void give_up(const dem::StateFault& fault) const {
-    const std::string scene =
-        write_offender(run, stage_now(), watch.before, fault.a, fault.b, folder);
-    std::string text = fault.what();
-    if (!scene.empty())
-      text += " Bodies " + std::to_string(fault.a) + " and " + std::to_string(fault.b) +
-              " alone, from the last look before: trackbed run " + scene + ".";
-    throw RunError(text);
+    const dem::Bodies& before = watch.before;
+    const auto* of_surface = dynamic_cast<const SurfaceFault*>(&fault);
+    std::string scene, who;
+    if (of_surface) {
+      const coupling::Surface& s = run.world.surfaces[of_surface->surface];
+      who =
+          "Grain " + std::to_string(fault.a) + " and a held block in place of the " + s.patch.name;
+      scene = write_offender(
+          run, stage_now(), offender_of(run, before, fault.a),
+          surface_at(run, s, of_surface->contact, run.world.time - watch.before_time), who, folder);
+    } else if (fault.b >= 0 && fault.a != fault.b && std::max(fault.a, fault.b) < before.size()) {
+      who = "Bodies " + std::to_string(fault.a) + " and " + std::to_string(fault.b);
+      scene = write_offender(run, stage_now(), offender_of(run, before, fault.a),
+                             offender_of(run, before, fault.b), who, folder);
+    }
+    if (scene.empty()) throw RunError(fault.what());
+    throw RunError(std::string(fault.what()) + " " + who +
+                   " alone, from the last look before: trackbed run " + scene + ".");
   }
 };
 

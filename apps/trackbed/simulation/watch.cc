@@ -65,7 +65,8 @@ std::string when(const Run& run, const Stage& stage) {
 void check_surfaces(const Run& run, const Stage& stage) {
   const coupling::World& w = run.world;
   const double allowed = run.scene.contact.largest_overlap;
-  for (const coupling::Surface& s : w.surfaces)
+  for (std::size_t n = 0; n < w.surfaces.size(); ++n) {
+    const coupling::Surface& s = w.surfaces[n];
     for (int k = 0; k < s.contacts.size(); ++k) {
       if (!s.contacts.touching[k]) continue;
       const int i = s.contacts.grain[k];
@@ -82,8 +83,9 @@ void check_surfaces(const Run& run, const Stage& stage) {
                     "Contact/Contact modulus, or a smaller Numerics/Margin.",
                     w.step, when(run, stage).c_str(), i, s.patch.name.c_str(), depth, 100 * share,
                     100 * allowed, run.stage.dt);
-      throw dem::StateFault(text, i, -1);
+      throw SurfaceFault(text, i, static_cast<int>(n), k);
     }
+  }
 }
 
 // One that slid off a small bed lies beside it.
@@ -108,6 +110,7 @@ Watch start_watch(const Run& run) {
   Watch watch;
   const dem::Bodies& b = run.world.bodies;
   watch.before = b;
+  watch.before_time = run.world.time;
   watch.fall = std::max(0.0, highest_grain(run, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL));
   watch.driven = fastest_driven(run);
   for (int i = 0; i < b.grains; ++i) watch.driven = std::max(watch.driven, b.v[i].norm());
@@ -125,6 +128,7 @@ void inspect(const Run& run, const Stage& stage, Watch& watch) {
   check_sleeper(run, stage);
   watch.energy = std::max(watch.energy, strongest_contact(run));
   watch.before = w.bodies;
+  watch.before_time = w.time;
 }
 
 void check_ledger(const Run& run, const Stage& stage) {

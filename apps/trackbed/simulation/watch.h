@@ -8,10 +8,18 @@ namespace trackbed::apps {
 /// What is known of a stage to judge its grains by. Not part of a checkpoint: results do not depend
 /// on it, only when a run that goes wrong is stopped.
 struct Watch {
-  dem::Bodies before;  ///< at the last look that found nothing
-  double fall = 0;     ///< height from which a grain may fall [m]
-  double driven = 0;   ///< fastest of what moved at the start, plate, sleeper and surfaces [m/s]
-  double energy = 0;   ///< largest stored in one contact so far [J]
+  dem::Bodies before;      ///< at the last look that found nothing
+  double before_time = 0;  ///< [s]
+  double fall = 0;         ///< height from which a grain may fall [m]
+  double driven = 0;  ///< fastest of what moved at the start, plate, sleeper and surfaces [m/s]
+  double energy = 0;  ///< largest stored in one contact so far [J]
+};
+
+/// A grain too deep in a deforming surface.
+struct SurfaceFault : dem::StateFault {
+  int surface, contact;  ///< of World::surfaces, of its contacts
+  SurfaceFault(const std::string& text, int grain, int its_surface, int its_contact)
+      : StateFault(text, grain, -1), surface(its_surface), contact(its_contact) {}
 };
 
 /// At a stage's start, or where it goes on after a checkpoint.
