@@ -34,8 +34,10 @@ struct Copies {
 
 void growth(const Scene& bed, int most) {
   std::vector<Copies> beds;
-  for (const int tiles : {1, 3, most}) {
-    if (tiles > most || (tiles == most && static_cast<int>(beds.size()) == most)) continue;
+  std::vector<int> copies{1};
+  if (most > 3) copies.push_back(3);
+  if (most > 1) copies.push_back(most);
+  for (const int tiles : copies) {
     const double before = memory();
     beds.push_back({tiled(bed, tiles, tiles), 0, {}});
     Scene& s = beds.back().scene;

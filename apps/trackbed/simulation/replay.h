@@ -1,6 +1,6 @@
-// The pair of bodies, or grain and surface, at which a run went wrong, as a scene of its own, and that scene's run: the
-// two alone as they moved, the contact law and the step of the run, no walls, no load, no
-// neighbours.
+// The pair of bodies, or grain and surface, at which a run went wrong, as a scene of its own, and
+// that scene's run: the two alone as they moved, the contact law and the step of the run, no walls,
+// no load, no neighbours.
 #pragma once
 #include <string>
 
