@@ -121,7 +121,7 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
   const int begin = pairs.begin(kind), end = pairs.end(kind);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
   const bool centred = kind == PairKind::balls, many = end - begin > kManyPairs;
-  const int threads = c.threads_for(end - begin);  // a pair takes no longer than a body
+  const int threads = c.threads_for((end - begin) / 2);  // a pair is as soon done as half a body
   const int busy = (pairs.busy_end(kind) - begin + kStretch - 1) / kStretch;
   by_shares(stretches, busy, threads, [&](int s) {
     const auto evaluate = [&](const Eightfold& e) {
