@@ -130,7 +130,10 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
   const int stretches = (end - begin + kStretch - 1) / kStretch;
   const int busy = (pairs.busy_end(Geometry::kind) - begin + kStretch - 1) / kStretch;
-  by_shares(stretches, busy, c.threads, [&](int s) {
+  // A sphere on a polyhedron is as soon done as half a body is moved.
+  constexpr bool quick = Geometry::kind == PairKind::point_core;
+  const int threads = quick ? c.threads_for((end - begin) / 2) : c.threads;
+  by_shares(stretches, busy, threads, [&](int s) {
     Found found;
     for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {
       if (asleep(travel, pairs, p)) continue;

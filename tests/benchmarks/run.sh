@@ -29,6 +29,7 @@ printf '\n# Cost of each effect\n' && "$build/tests/bed_benchmark" effects "$bui
 printf '\n# A structure'\''s step\n' && "$build/tests/fem_step_benchmark"
 printf '\n# Grains on a deforming surface\n' && "$build/tests/surface_benchmark"
 printf '\n# A structure shared by ranks\n'
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1  # it writes nothing
 for n in 1 2 4; do
   OMP_NUM_THREADS=1 mpirun --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -n $n "$build/tests/distributed_benchmark" $ranks
 done

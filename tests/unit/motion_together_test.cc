@@ -152,9 +152,8 @@ TEST(Together, the_same_bits_on_any_threads) {
       StepContext two;
       two.threads = 2;
       EXPECT_EQ(two.threads_for(one.bodies.size()), 2);
-      EXPECT_EQ(
-          two.threads_for((one.pairs.end(PairKind::balls) - one.pairs.begin(PairKind::balls)) / 2),
-          2);
+      for (const PairKind k : {PairKind::balls, PairKind::points, PairKind::point_core})
+        EXPECT_EQ(two.threads_for((one.pairs.end(k) - one.pairs.begin(k)) / 2), 2);
     }
     for (const int threads : {2, 8}) {
       const Scene s = heap(row, steps, threads);
