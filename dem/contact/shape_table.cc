@@ -56,7 +56,7 @@ void sort_around(std::vector<Corner>& corners) {
 }  // namespace
 
 int ShapeTable::add(const GrainShape& shape) {
-  views_.push_back(add_view(shape.body, shape.radius));
+  views_.push_back(add_view(shape.body, shape.radius, shape.parts.empty()));
   if (shape.parts.empty()) {
     parts_.emplace_back();
     parts_.back().core = views_.back();
@@ -74,7 +74,7 @@ int ShapeTable::add(const GrainShape& shape) {
       double most = 0;
       for (const Vec3& v : given.core.vertices) most = std::max(most, v.norm());
       part.kind = given.radius > 0 ? Core::dilated : Core::plain;
-      part.core = add_view(given.core, most);
+      part.core = add_view(given.core, most, true);
     }
     parts_.push_back(part);
   }
@@ -90,7 +90,7 @@ int ShapeTable::add(const GrainShape& shape) {
   return size() - 1;
 }
 
-ConvexView ShapeTable::add_view(const Polyhedron& body, double radius) {
+ConvexView ShapeTable::add_view(const Polyhedron& body, double radius, bool touches) {
   const int n = static_cast<int>(body.vertices.size());
   const int faces = static_cast<int>(body.faces.size());
   if (n < 4 || faces < 4) throw InputError("shape: a polyhedron needs 4 vertices and 4 faces");
@@ -115,7 +115,7 @@ ConvexView ShapeTable::add_view(const Polyhedron& body, double radius) {
 
   const int padded = padded_to_eight(n), padded_faces = padded_to_eight(faces);
   const int words = (faces + 63) / 64;
-  bool small_faces = true;
+  bool small_faces = touches;
   for (const auto& face : body.faces) small_faces = small_faces && face.size() <= 8;
 
   int star = 8;
@@ -124,7 +124,7 @@ ConvexView ShapeTable::add_view(const Polyhedron& body, double radius) {
 
   auto arrays = std::make_shared<Arrays>();
   const std::size_t reals = 3 * padded + 4 * padded_faces + (small_faces ? 24 * faces : 0),
-                    star_reals = n * star + 8;
+                    star_reals = touches ? n * star + 8 : 0;
   double* real = reals_.take(reals + star_reals);
   ConvexView view;
   const auto take = [&real](std::size_t count) { return std::exchange(real, real + count); };
@@ -136,8 +136,8 @@ ConvexView ShapeTable::add_view(const Polyhedron& body, double radius) {
     offset[f] = plane.offset;
   }
   double* at_vertex = take(star_reals);
-  view.stars = at_vertex, view.star_size = star;
-  for (int v = 0; v < n; ++v, at_vertex += star) {
+  if (touches) view.stars = at_vertex, view.star_size = star;
+  for (int v = 0; touches && v < n; ++v, at_vertex += star) {
     const Vec3& p = body.vertices[v];
     double* at = std::copy(p.data(), p.data() + 3, at_vertex) + 1;
     if (corner_at[v].size() > 7 || faces > 64) continue;

@@ -98,7 +98,8 @@ class ShapeTable {
     std::vector<std::uint64_t> bits;     // vertex_faces
     std::vector<std::uint16_t> indices;  // neighbor_begin, neighbor, left_face, loop_begin, loop
   };
-  ConvexView add_view(const Polyhedron&, double radius);
+  // `touches`: with stars and corners, which contacts read; the body of a shape with parts has none.
+  ConvexView add_view(const Polyhedron&, double radius, bool touches);
 
   LinePool reals_;  // of each shape: nx, ny, nz, offset; stars; x, y, z; corners
   std::vector<std::shared_ptr<const Arrays>> arrays_;
