@@ -79,7 +79,7 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
 // What pairs need is asked for before it is needed: these are more arrays than the processor follows
 // by itself, and it follows none beyond a page. Bodies b lie in no order. First which they are, then
 // their shapes' numbers, then the rest: each reads what the one before asked for.
-inline constexpr int kAhead = 16;  // pairs
+inline constexpr int kAhead = 80;  // pairs
 
 [[gnu::always_inline]] inline void fetch_keys(const Pairs& pairs, int p) {
   for (const auto* v : {&pairs.a, &pairs.b, &pairs.part_a, &pairs.part_b}) fetch_lines(&(*v)[p], 1);

@@ -141,7 +141,7 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
   const bool many = all > kManyPairs;
   // Of a thread at a time. The next pair beyond may be another's, so that nothing of it is asked
   // for: few beginnings where memory is far, even shares where pairs are few.
-  constexpr int most = 256, kEntriesAhead = 6;
+  constexpr int most = 256, kEntriesAhead = 16;
   const int share = many ? most : 32;
   const auto shares = [share](int n) { return (n + share - 1) / share; };
   by_shares(shares(all), shares(pairs.busy_end(PairKind::polyhedra)), c.threads, [&](int s) {

@@ -38,7 +38,7 @@ namespace {
 }  // namespace
 
 void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
-  constexpr int kAhead = 64;
+  constexpr int kAhead = 200;
   const int threads = c.threads_for(b.size()), ends = static_cast<int>(pairs.incident.size());
   const bool many = ends > 2 * kManyPairs;
   // Pairs of balls have no couple unless something resists their turning.

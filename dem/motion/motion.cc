@@ -99,7 +99,7 @@ template <bool moves>
 // All bodies by eights; `free` for those of them that move freely, `held` for each other one.
 template <bool moves, class Free, class Held>
 StepWork each_eight(Bodies& b, const StepContext& c, Free&& free, Held&& held) {
-  constexpr int kAhead = 16, kMany = 2000;  // fewer stay in the processor's own cache
+  constexpr int kAhead = 32, kMany = 2000;  // fewer stay in the processor's own cache
   const int n = b.size();
   return ordered_sum<StepWork>((n + 7) / 8, c.threads_for(n), [&](int row) {
     if (n > kMany && 8 * row + kAhead + 8 <= n) fetch_bodies<moves>(b, 8 * row + kAhead);
