@@ -22,12 +22,8 @@ inline void find_overlaps(const Bodies& b, const ShapeTable& shapes, const StepC
   e.apart = read(b.x.data(), e.b) - read(b.x.data(), e.a);
   e.apart = e.apart + Eight3(image(e.apart.x, c.period.x()), image(e.apart.y, c.period.y()),
                              image(e.apart.z, c.period.z()));
-  const auto ball_a = [&](int k) -> const Ball& {
-    return shapes.ball(b.shape[e.a.at[k]], pairs.part_a[e.pair.at[k]]);
-  };
-  const auto ball_b = [&](int k) -> const Ball& {
-    return shapes.ball(b.shape[e.b.at[k]], pairs.part_b[e.pair.at[k]]);
-  };
+  const auto ball_a = [&](int k) -> const Ball& { return shapes.ball(pairs.ball_a[e.pair.at[k]]); };
+  const auto ball_b = [&](int k) -> const Ball& { return shapes.ball(pairs.ball_b[e.pair.at[k]]); };
   const Eight ra = eight_of([&](int k) { return ball_a(k).radius; }),
               rb = eight_of([&](int k) { return ball_b(k).radius; });
   Eight3 x(0, 0, 0), way = e.apart;  // a's ball; from it to b's
@@ -76,16 +72,22 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
   respond<Law, friction>(b, materials, c, e, pairs);
 }
 
+/// Pairs::ball_a, ball_b.
+inline void find_balls(const Bodies& b, const ShapeTable& shapes, Pairs& pairs) {
+  pairs.ball_a.resize(pairs.size()), pairs.ball_b.resize(pairs.size());
+  for (int p = pairs.begin(PairKind::balls); p < pairs.end(PairKind::points); ++p) {
+    pairs.ball_a[p] = shapes.place(b.shape[pairs.a[p]], pairs.part_a[p]);
+    pairs.ball_b[p] = shapes.place(b.shape[pairs.b[p]], pairs.part_b[p]);
+  }
+}
+
 // What pairs need is asked for before it is needed: these are more arrays than the processor follows
 // by itself, and it follows none beyond a page. Bodies b lie in no order. First which they are, then
-// their shapes' numbers, then the rest: each reads what the one before asked for.
+// the rest, which reads that.
 inline constexpr int kAhead = 80;  // pairs
 
 [[gnu::always_inline]] inline void fetch_keys(const Pairs& pairs, int p) {
-  for (const auto* v : {&pairs.a, &pairs.b, &pairs.part_a, &pairs.part_b}) fetch_lines(&(*v)[p], 1);
-}
-[[gnu::always_inline]] inline void fetch_shapes_of(const Bodies& b, const Pairs& pairs, int p) {
-  for (int k = p; k < p + 8; ++k) fetch_lines(&b.shape[pairs.b[k]], 1);
+  for (const auto* v : {&pairs.a, &pairs.b, &pairs.ball_a, &pairs.ball_b}) fetch_lines(&(*v)[p], 1);
 }
 [[gnu::always_inline]] inline void fetch_balls(const Bodies& b, const ShapeTable& shapes,
                                                const Pairs& pairs, int p) {
@@ -99,17 +101,21 @@ inline constexpr int kAhead = 80;  // pairs
     const int j = pairs.b[k];
     fetch(b.x[j]), fetch(b.v[j]), fetch(b.turn[j]);
     fetch_lines(&b.mass[j], 1), fetch_lines(&b.material[j], 1), fetch_lines(&b.freedom[j], 1);
-    fetch_lines(&shapes.ball(b.shape[j], 0), 1);
+    fetch_lines(&shapes.ball(pairs.ball_b[k]), 1);
   }
 }
 /// At row p of eight, for later ones before `end`. Where this one touches those most likely do;
-/// whether they do is not looked at, as another thread may be writing it.
+/// whether they do is not looked at, as another thread may be writing it. One that does not touch
+/// asks for what tells that later ones do not either.
 [[gnu::always_inline]] inline void fetch_ahead(const Bodies& b, const ShapeTable& shapes,
+                                               const std::vector<double>& travel,
                                                const Pairs& pairs, int p, int end) {
-  if (p + 3 * kAhead + 8 > end || !pairs.touching[p]) return;
-  fetch_keys(pairs, p + 3 * kAhead);
-  fetch_shapes_of(b, pairs, p + 2 * kAhead);
-  fetch_balls(b, shapes, pairs, p + kAhead);
+  if (p + 2 * kAhead + 8 > end) return;
+  fetch_keys(pairs, p + 2 * kAhead);
+  if (pairs.touching[p]) return fetch_balls(b, shapes, pairs, p + kAhead);
+  fetch_lines(&pairs.wake[p + kAhead], 1);
+  for (int k = p + kAhead; k < p + kAhead + 8; ++k)
+    fetch_lines(&travel[pairs.a[k]], 1), fetch_lines(&travel[pairs.b[k]], 1);
 }
 
 /// All pairs of balls of one kind. Those that touch lie in a row, most of them: eight that all do
@@ -119,18 +125,20 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
                          const StepContext& c, const std::vector<double>& travel, PairKind kind,
                          Pairs& pairs) {
   const int begin = pairs.begin(kind), end = pairs.end(kind);
-  const int stretches = (end - begin + kStretch - 1) / kStretch;
+  if (begin == end) return;
+  if (pairs.ball_a.empty()) find_balls(b, shapes, pairs);
+  const int stretch = stretch_of(end - begin), stretches = (end - begin + stretch - 1) / stretch;
   const bool centred = kind == PairKind::balls, many = end - begin > kManyPairs;
-  const int threads = c.threads_for((end - begin) / 2);  // a pair is as soon done as half a body
-  const int busy = (pairs.busy_end(kind) - begin + kStretch - 1) / kStretch;
-  by_shares(stretches, busy, threads, [&](int s) {
+  const int threads = c.threads_for(end - begin);
+  const int busy = (pairs.busy_end(kind) - begin + stretch - 1) / stretch;
+  by_shares(stretches, busy, threads, [&](int s, int) {
     const auto evaluate = [&](const Eightfold& e) {
       evaluate_balls<Law, friction>(b, shapes, materials, c, travel, centred, e, pairs);
     };
     Eightfold awake;
-    const int first = begin + s * kStretch, last = std::min(end, first + kStretch);
+    const int first = begin + s * stretch, last = std::min(end, first + stretch);
     for (int row = first; row < last; row += 8) {
-      if (many) fetch_ahead(b, shapes, pairs, row, end);
+      if (many) fetch_ahead(b, shapes, travel, pairs, row, end);
       if (row + 8 <= last && all_are(&pairs.touching[row], 1)) {
         evaluate(Eightfold::row(row, 8));
         continue;

@@ -10,8 +10,10 @@
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define TRACKBED_AVX512 1
 // GCC 12 takes the intrinsics' deliberately undefined operands for mistakes (its bug 105593).
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #endif
 
 namespace trackbed::dem {

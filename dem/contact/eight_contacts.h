@@ -1,15 +1,18 @@
 // Eight round contacts at a time, whatever their shapes: from where they touch to forces and
 // history. Included by the loops over pairs, nowhere else.
 #pragma once
+#include <algorithm>
+
 #include "dem/contact/eight_vectors.h"
 #include "dem/contact/pair_forces.h"
 #include "dem/contact/round_response.h"
 
 namespace trackbed::dem {
 
-/// Pairs to a stretch of the list. Those that touch are taken in order, eight by eight, within a
-/// stretch: which of them go together does not depend on the number of threads.
-inline constexpr int kStretch = 128;
+/// Pairs to a stretch of a list of so many. Those that touch are taken in order, eight by eight,
+/// within a stretch: which of them go together does not depend on the number of threads. Of a short
+/// list there are some sixteen, enough for threads to have about the same to do.
+inline int stretch_of(int pairs) { return std::clamp(pairs / 16 / 8 * 8, 32, 128); }
 
 /// Where up to eight pairs touch; relative to their a's centre, world axes.
 struct EightContacts {

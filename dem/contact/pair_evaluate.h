@@ -144,7 +144,7 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
   constexpr int most = 256, kEntriesAhead = 16;
   const int share = many ? most : 32;
   const auto shares = [share](int n) { return (n + share - 1) / share; };
-  by_shares(shares(all), shares(pairs.busy_end(PairKind::polyhedra)), c.threads, [&](int s) {
+  by_shares(shares(all), shares(pairs.busy_end(PairKind::polyhedra)), c.threads, [&](int s, int t) {
     int awake[most], count = 0;
     for (int p = s * share; p < std::min(all, (s + 1) * share); ++p)
       if (!asleep(travel, pairs, p)) awake[count++] = p;
@@ -152,8 +152,8 @@ void evaluate_pairs(const Bodies& b, const ShapeTable& shapes, const PairMateria
       if (many && awake[k] + kEntriesAhead < all) fetch_entries(pairs, awake[k] + kEntriesAhead);
       if (k + 3 < count) fetch_bodies(b, shapes, pairs, awake[k + 3]);
       if (k + 2 < count) fetch_shapes(b, shapes, pairs, awake[k + 2]);
-      evaluate_pair<Law, friction>(b, shapes, materials, c, travel,
-                                   pairs.workspaces[omp_get_thread_num()], pairs, awake[k]);
+      evaluate_pair<Law, friction>(b, shapes, materials, c, travel, pairs.workspaces[t], pairs,
+                                   awake[k]);
     }
   });
 }

@@ -27,20 +27,10 @@ bool PairMaterials::has_friction() const {
   return false;
 }
 
-namespace {
-
-/// Asks for what the sum below reads of a pair at one of its bodies.
-[[gnu::always_inline]] inline void fetch_end(const Pairs& pairs, int e) {
-  const int p = e >= 0 ? e : ~e;
-  fetch(pairs.force[p]), fetch((e >= 0 ? pairs.arm_a : pairs.arm_b)[p]);
-}
-
-}  // namespace
-
 void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
-  constexpr int kAhead = 200;
-  const int threads = c.threads_for(b.size()), ends = static_cast<int>(pairs.incident.size());
-  const bool many = ends > 2 * kManyPairs;
+  constexpr int kAhead = 100;
+  const int threads = c.threads_for(b.size());
+  const bool many = pairs.size() > kManyPairs;
   // Pairs of balls have no couple unless something resists their turning.
   const int balls = pairs.begin(PairKind::balls),
             others = pairs.resists ? balls : pairs.end(PairKind::points);
@@ -48,9 +38,12 @@ void sum_forces(const Pairs& pairs, const StepContext& c, Bodies& b) {
   for (int i = 0; i < b.size(); ++i) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
     for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
-      if (many && k + kAhead < ends) fetch_end(pairs, pairs.incident[k + kAhead]);
       const int e = pairs.incident[k];
       const int p = e >= 0 ? e : ~e;
+      // A pair is first met at its body a, in order; soon after, or a layer of grains later, at b.
+      if (many && e >= 0 && p + kAhead < pairs.size())
+        for (const auto* v : {&pairs.force, &pairs.arm_a, &pairs.arm_b})
+          fetch_lines(&(*v)[p + kAhead], 1);
       if (!pairs.touching[p]) continue;
       const bool couple = p < balls || p >= others;
       if (e >= 0) {

@@ -38,9 +38,8 @@ FrictionResult rolling(double coefficient, const Bodies& b, const Vec3& n, const
                        const Vec3& pair_turn, Pairs& pairs, int p) {
   const double arm = coefficient * rolling_radius(b, pairs, p);
   const double k = 2.25 * pairs.stiffness[p] * arm * arm;
-  const FrictionResult r =
-      advance_friction(arm, k, n, pairs.normal_force[p], {turn, pair_turn}, pairs.rolling[p],
-                       pairs.rolling_stiffness[p]);
+  const FrictionResult r = advance_friction(arm, k, n, pairs.normal_force[p], {turn, pair_turn},
+                                            pairs.rolling[p], pairs.rolling_stiffness[p]);
   pairs.couple[p] += pairs.rolling[p];
   return r;
 }

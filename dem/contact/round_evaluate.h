@@ -70,8 +70,8 @@ const PartView& part_of(const ShapeTable& shapes, int shape, int k) {
 /// Adds pair p to `found` if it touches; one with flat parts answers at once.
 template <class Geometry, class Law, bool friction>
 void find_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
-                  const StepContext& c, const std::vector<double>& travel, Pairs& pairs, int p,
-                  Found& found) {
+                  const StepContext& c, const std::vector<double>& travel, OverlapWorkspace& work,
+                  Pairs& pairs, int p, Found& found) {
   const int i = pairs.a[p], j = pairs.b[p];
   const PartView& part_a = part_of<Geometry, Law>(shapes, b.shape[i], pairs.part_a[p]);
   const PartView& part_b = part_of<Geometry, Law>(shapes, b.shape[j], pairs.part_b[p]);
@@ -88,8 +88,7 @@ void find_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials
   if constexpr (kFlats<Geometry, Law>) {
     const PairMaterial& material = materials(b.material[i], b.material[j]);
     NormalContact flat;
-    if (flat_contact(part_a, b.R[i], part_b, {b.R[j], apart}, balls, material,
-                     pairs.workspaces[omp_get_thread_num()], flat)) {
+    if (flat_contact(part_a, b.R[i], part_b, {b.R[j], apart}, balls, material, work, flat)) {
       const BallContactOf<double> contact{balls.overlap, radius, 0, contact_mass(b, i, j), c.dt};
       respond_flat<Law, friction>(b, material, contact, balls.n, arm_a, flat,
                                   part_a.crown + part_b.crown, apart, pairs, p);
@@ -128,16 +127,17 @@ void evaluate_kind(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   const int begin = pairs.begin(Geometry::kind), end = pairs.end(Geometry::kind);
   if (begin == end) return;
   if (static_cast<int>(pairs.workspaces.size()) < c.threads) pairs.workspaces.resize(c.threads);
-  const int stretches = (end - begin + kStretch - 1) / kStretch;
-  const int busy = (pairs.busy_end(Geometry::kind) - begin + kStretch - 1) / kStretch;
-  // A sphere on a polyhedron is as soon done as half a body is moved.
+  const int stretch = stretch_of(end - begin), stretches = (end - begin + stretch - 1) / stretch;
+  const int busy = (pairs.busy_end(Geometry::kind) - begin + stretch - 1) / stretch;
+  // A sphere on a polyhedron takes as long as two bodies are moved.
   constexpr bool quick = Geometry::kind == PairKind::point_core;
-  const int threads = quick ? c.threads_for((end - begin) / 2) : c.threads;
-  by_shares(stretches, busy, threads, [&](int s) {
+  const int threads = quick ? c.threads_for(2 * (end - begin)) : c.threads;
+  by_shares(stretches, busy, threads, [&](int s, int t) {
     Found found;
-    for (int p = begin + s * kStretch; p < std::min(end, begin + (s + 1) * kStretch); ++p) {
+    for (int p = begin + s * stretch; p < std::min(end, begin + (s + 1) * stretch); ++p) {
       if (asleep(travel, pairs, p)) continue;
-      find_contact<Geometry, Law, friction>(b, shapes, materials, c, travel, pairs, p, found);
+      find_contact<Geometry, Law, friction>(b, shapes, materials, c, travel, pairs.workspaces[t],
+                                            pairs, p, found);
       if (found.pair.count == 8)
         respond_to<Geometry, Law, friction>(b, shapes, materials, c, pairs, found);
     }

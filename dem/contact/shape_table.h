@@ -81,7 +81,9 @@ class ShapeTable {
   /// Parts of a shape: one, the body itself, for a plain polyhedron.
   int parts(int shape) const { return part_first_[shape + 1] - part_first_[shape]; }
   const PartView& part(int shape, int k) const { return parts_[part_first_[shape] + k]; }
-  const Ball& ball(int shape, int k) const { return balls_[part_first_[shape] + k]; }
+  /// Place of a shape's part among all parts, and what pairs of balls read of the one at a place.
+  int place(int shape, int k) const { return part_first_[shape] + k; }
+  const Ball& ball(int place) const { return balls_[place]; }
   /// The part for laws that let flat faces answer by their area (flat_contact.h): of a dilated
   /// polyhedron's crown only so much is left that edges roll smoothly through parallel, 0.001 over
   /// the core's greatest distance from the centroid, and r is the radius at the core's farthest

@@ -1,6 +1,6 @@
 // A loop over a list by several threads, a share of it at a time. Each thread has shares of its own,
 // the same in every step, so that what it writes stays in its own cache; one that is done takes
-// shares of the others. Included by the loops over pairs, nowhere else.
+// shares of the others. Included by the loops over contacts, nowhere else.
 #pragma once
 #include <omp.h>
 
@@ -23,14 +23,14 @@ struct alignas(64) OwnShares {
   }
 };
 
-/// work(s) for each s in [0, shares), once, on up to `threads` threads. The first `busy` are most of
-/// the work: each thread gets as many of them.
+/// work(s, t) for each s in [0, shares), once, on up to `threads` threads; t in [0, threads) is which
+/// of them, whoever calls. The first `busy` are most of the work: each thread gets as many of them.
 template <class Work>
 void by_shares(int shares, int busy, int threads, Work&& work) {
   constexpr int kMost = 64;
   threads = std::min({threads, kMost, shares});
   if (threads <= 1) {
-    for (int s = 0; s < shares; ++s) work(s);
+    for (int s = 0; s < shares; ++s) work(s, 0);
     return;
   }
   std::array<OwnShares, kMost> own;
@@ -42,8 +42,16 @@ void by_shares(int shares, int busy, int threads, Work&& work) {
   }
 #pragma omp parallel num_threads(threads)
   for (int k = 0; k < threads; ++k) {
-    OwnShares& from = own[(omp_get_thread_num() + k) % threads];
-    for (int s = from.take(); s >= 0; s = from.take()) work(s);
+    const int me = omp_get_thread_num();
+    OwnShares& from = own[(me + k) % threads];
+    for (int s = from.take(); s >= 0; s = from.take()) work(s, me);
+  }
+}
+
+/// What the shares find together: the least of all.
+inline void lower_to(int value, std::atomic<int>& least) {
+  int now = least.load();
+  while (value < now && !least.compare_exchange_weak(now, value)) {
   }
 }
 

@@ -28,7 +28,7 @@ struct StepContext {
   Vec3 period = Vec3::Zero();  ///< box length in a periodic direction [m], 0 = not periodic
   int threads = 1;
   /// Of these, for a pass over so many bodies: few are as quickly done as a thread is told.
-  int threads_for(int bodies) const { return bodies > 500 ? threads : 1; }
+  int threads_for(int bodies) const { return bodies > 100 ? threads : 1; }
 };
 
 /// Work and loss of one half of a step [J], for the energy ledger. Loads act along the step's

@@ -142,19 +142,17 @@ Scene heap(int row, int steps, int threads) {
 }
 
 TEST(Together, the_same_bits_on_any_threads) {
-  // The second is large enough for the passes that few bodies leave to one thread.
+  // Both are large enough for all passes to be shared.
   for (const auto& [row, steps] : {std::pair(7, 300), std::pair(14, 20)}) {
     const Scene one = heap(row, steps, 1);
     for (const PairKind k : {PairKind::balls, PairKind::points, PairKind::point_core})
       EXPECT_GT(one.pairs.end(k) - one.pairs.begin(k), 200);
     EXPECT_GT(count_contacts(one.pairs), 500);
-    if (row == 14) {
-      StepContext two;
-      two.threads = 2;
-      EXPECT_EQ(two.threads_for(one.bodies.size()), 2);
-      for (const PairKind k : {PairKind::balls, PairKind::points, PairKind::point_core})
-        EXPECT_EQ(two.threads_for((one.pairs.end(k) - one.pairs.begin(k)) / 2), 2);
-    }
+    StepContext two;
+    two.threads = 2;
+    EXPECT_EQ(two.threads_for(one.bodies.size()), 2);
+    for (const PairKind k : {PairKind::balls, PairKind::points, PairKind::point_core})
+      EXPECT_EQ(two.threads_for(one.pairs.end(k) - one.pairs.begin(k)), 2);
     for (const int threads : {2, 8}) {
       const Scene s = heap(row, steps, threads);
       EXPECT_EQ(one.flow.total(), s.flow.total()) << threads;
