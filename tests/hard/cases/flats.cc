@@ -1,6 +1,6 @@
 // Dilated blocks on their faces: at a tilt, at rest, on a path, on each other. Crowned faces under
 // the laws of one ball, flat ones under hertz_flat.
-#include "grain_scene.h"
+#include "on_a_floor.h"
 
 namespace trackbed::hard {
 namespace {
@@ -40,12 +40,10 @@ Scene balanced(const Setting& set) {
 }
 
 Measured tilt(const Setting& set) {
-  const double depth = 1e-4 * kSize, upright = force_at(set, depth);
-  double worst = 0;
-  for (double angle = 1e-14; angle < 2e-8; angle *= 10)
-    worst =
-        std::max(worst, std::abs(flat(set, .5, depth, angle).bodies.force[0].z() / upright - 1));
-  return {worst, 1e-6};
+  const auto force = [&](double angle) {
+    return flat(set, .5, 1e-4 * kSize, angle).bodies.force[0].z();
+  };
+  return {change_by_tilt(force), 1e-6};
 }
 
 // From a face on a face to an edge: no jump of force or torque at a small step of the angle.
@@ -73,54 +71,22 @@ Curve force_over_tilt(const Setting& set) {
   return c;
 }
 
-Measured at_rest(const Setting& set) {
-  Scene s = balanced(set);
-  s.context.local_damping = .5;
-  for (int k = 0; k < 5000; ++k) s.step();
-  return {s.bodies.v[0].norm(), 1e-10};
-}
+Measured at_rest(const Setting& set) { return {speed_at_rest(balanced(set)), 1e-10}; }
 
-Measured drift_of_tilt(const Setting& set) {
-  Scene s = balanced(set);
-  const dem::Mat3 start = s.bodies.R[0];
-  for (int k = 0; k < 5000; ++k) s.step();
-  return {(s.bodies.R[0] - start).norm() / std::sqrt(2.), 1e-9};
-}
+Measured drift_of_tilt(const Setting& set) { return {turned_at_rest(balanced(set)), 1e-9}; }
 
 Measured toggles(const Setting& set) {
-  Scene s = flat(set, .5, -.02 * kSize);
-  s.context.gravity.setZero();
-  s.bodies.v[0].z() = -1e-2;
-  s.prepare();
-  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
-  const double start = s.bodies.x[0].z();
-  int changes = 0;
-  bool touching = false;
-  for (int k = 0; k < 200000 && !(changes >= 2 && s.bodies.x[0].z() > start); ++k) {
-    s.step();
-    const bool now = dem::count_contacts(s.pairs) > 0;
-    changes += now != touching;
-    touching = now;
-  }
-  return {changes < 2 ? HUGE_VAL : changes, 2};
+  const Scene s = flat(set, .5, -.02 * kSize);
+  return {changes_of_contact(s, set, 1e-2, s.bodies.x[0].z(), 200000), 2};
 }
 
-// Held over the end of its base, so that the area changes and the deepest ball does not, on a
-// circle in x and z; sums as in rest.cc.
+// Over the end of its base, so that the area changes and the deepest ball does not.
 Measured closed_path(const Setting& set) {
-  const double depth = 5e-3 * kSize, r = 3e-4 * kSize, base = .4 * kSize;
-  Scene s = flat(set, 0, depth, 0, base);
-  const double x = base - .1 * kSize, z = s.bodies.x[0].z();
-  const int n = 128;
-  double work = 0, stored = 0;
-  for (int k = 0; k < n; ++k) {
-    const double a = 2 * M_PI * k / n;
-    s.bodies.x[0] = {x + 100 * r * std::cos(a), 0, z + r * std::sin(a)};
-    s.prepare();
-    work += s.bodies.force[0].dot(Vec3(-100 * std::sin(a), 0, std::cos(a))) * r * 2 * M_PI / n;
-    stored = std::max(stored, s.now().normal);
-  }
-  return {stored > 0 ? std::abs(work) / stored : HUGE_VAL, 1e-10};
+  const double base = .4 * kSize;
+  const Scene s = flat(set, 0, 5e-3 * kSize, 0, base);
+  const Vec3 middle(base - .1 * kSize, 0, s.bodies.x[0].z());
+  const auto stored = [](Scene& at, double) { return at.now().normal; };
+  return {work_of_closed_path(s, middle, 3e-4 * kSize, stored), 1e-10};
 }
 
 Measured turned_pair(const Setting& set) {

@@ -1,5 +1,5 @@
 // Face on face, at rest, held on a path. Bodies that stand on a flat face.
-#include "grain_scene.h"
+#include "on_a_floor.h"
 
 namespace trackbed::hard {
 namespace {
@@ -41,12 +41,10 @@ Scene balanced(const Setting& set, std::uint8_t freedom = dem::kFree) {
 
 // In tilts from 1e-14 to 1e-8 rad a face stays a face: its force is that of no tilt.
 Measured tilt(const Setting& set) {
-  const double depth = 1e-4 * kSize, upright = flat(set, .5, depth).bodies.force[0].z();
-  double worst = 0;
-  for (double angle = 1e-14; angle < 2e-8; angle *= 10)
-    worst =
-        std::max(worst, std::abs(flat(set, .5, depth, angle).bodies.force[0].z() / upright - 1));
-  return {worst, 1e-6, set.law != "shao2017"};  // d of Eq. 17 has a kink there
+  const auto force = [&](double angle) {
+    return flat(set, .5, 1e-4 * kSize, angle).bodies.force[0].z();
+  };
+  return {change_by_tilt(force), 1e-6, set.law != "shao2017"};  // d of Eq. 17 has a kink there
 }
 
 // Area of the overlap with the floor of a box that is turned by `angle` about y and sunk in by
@@ -81,19 +79,10 @@ Curve force_over_tilt(const Setting& set) {
   return c;
 }
 
-Measured at_rest(const Setting& set) {
-  Scene s = balanced(set);
-  s.context.local_damping = .5;
-  for (int k = 0; k < 5000; ++k) s.step();
-  return {s.bodies.v[0].norm(), 1e-10};
-}
+Measured at_rest(const Setting& set) { return {speed_at_rest(balanced(set)), 1e-10}; }
 
 Measured drift_of_tilt(const Setting& set) {
-  Scene s = balanced(set);
-  const dem::Mat3 start = s.bodies.R[0];
-  for (int k = 0; k < 5000; ++k) s.step();
-  const double turned = (s.bodies.R[0] - start).norm() / std::sqrt(2.);
-  return {turned, 1e-9, set.law != "shao2017"};
+  return {turned_at_rest(balanced(set)), 1e-9, set.law != "shao2017"};
 }
 
 Measured base_size(const Setting& set) {
@@ -105,39 +94,20 @@ Measured base_size(const Setting& set) {
 
 // Comes down face on and goes up again: it touches once and leaves once.
 Measured toggles(const Setting& set) {
-  Scene s = flat(set, .5, -1e-9);
-  s.context.gravity.setZero();
-  s.bodies.v[0].z() = -1e-3;
-  s.prepare();
-  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
-  int changes = 0;
-  bool touching = false;
-  for (int k = 0; k < 20000 && !(changes >= 2 && s.bodies.x[0].z() > .5 * height(set.shape) + 1e-6);
-       ++k) {
-    s.step();
-    const bool now = dem::count_contacts(s.pairs) > 0;
-    changes += now != touching;
-    touching = now;
-  }
-  return {changes < 2 ? HUGE_VAL : changes, 2};
+  return {changes_of_contact(flat(set, .5, -1e-9), set, 1e-3, .5 * height(set.shape) + 1e-6, 20000),
+          2};
 }
 
-// Held over the end of its base, so that the contact's area changes, on a circle in x and z:
-// trapezoidal sums of a smooth periodic force converge faster than any power of their number.
+// Over the end of its base, so that the contact's area changes.
 Measured closed_path(const Setting& set) {
-  Scene s = flat(set, 0, 1e-3 * kSize, 0, dem::kFree, .45 * kSize);
-  const double r = 3e-4 * kSize, x = .3 * kSize, z = s.bodies.x[0].z();
-  const int n = 128;
-  double work = 0, stored = 0;
-  for (int k = 0; k < n; ++k) {
-    const double a = 2 * M_PI * k / n;
-    s.bodies.x[0] = {x + 100 * r * std::cos(a), 0, z + r * std::sin(a)};
-    s.prepare();
-    work += s.bodies.force[0].dot(Vec3(-100 * std::sin(a), 0, std::cos(a))) * r * 2 * M_PI / n;
-    // Half of force times depth: what a face on a face stores.
-    stored = std::max(stored, .5 * s.bodies.force[0].z() * (1e-3 * kSize - r * std::sin(a)));
-  }
-  return {std::abs(work) / stored, 1e-10, set.law != "shao2017"};
+  const double depth = 1e-3 * kSize;
+  const Scene s = flat(set, 0, depth, 0, dem::kFree, .45 * kSize);
+  // Half of force times depth: what a face on a face stores.
+  const auto stored = [depth](const Scene& at, double up) {
+    return .5 * at.bodies.force[0].z() * (depth - up);
+  };
+  const Vec3 middle(.3 * kSize, 0, s.bodies.x[0].z());
+  return {work_of_closed_path(s, middle, 3e-4 * kSize, stored), 1e-10, set.law != "shao2017"};
 }
 
 Measured turned_pair(const Setting& set) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "grain_scene.h"
+#include "on_a_floor.h"
 
 namespace trackbed::hard {
 namespace {
@@ -70,21 +70,8 @@ Measured at_rest(const Setting& set) {
 }
 
 Measured toggles(const Setting& set) {
-  Scene s = standing(set, .5, at_depth(set, -1e-9 * kSize), 2, dem::kMoveZ);
-  s.context.gravity.setZero();
-  s.bodies.v[0].z() = -1e-3;
-  s.prepare();
-  s.context.dt = set.share * dem::expected_limit(s.bodies, s.shapes, s.materials, {1, 1}).dt;
-  const double start = s.bodies.x[0].z();
-  int changes = 0;
-  bool touching = false;
-  for (int k = 0; k < 200000 && !(changes >= 2 && s.bodies.x[0].z() > start + 1e-6); ++k) {
-    s.step();
-    const bool now = dem::count_contacts(s.pairs) > 0;
-    changes += now != touching;
-    touching = now;
-  }
-  return {changes < 2 ? HUGE_VAL : changes, 2};
+  const Scene s = standing(set, .5, at_depth(set, -1e-9 * kSize), 2, dem::kMoveZ);
+  return {changes_of_contact(s, set, 1e-3, s.bodies.x[0].z() + 1e-6, 200000), 2};
 }
 
 // Where a piecewise constant function changes its value, and `to`: there the foot's point leaves a
