@@ -6,10 +6,6 @@
 namespace trackbed::dem {
 namespace {
 
-// Behind a facet's column the surface may have been met at a neighbour, aside by some times the
-// depth: sides of columns lean by 45 degrees at a right-angled edge, more at sharper ones.
-constexpr double kAside = 10;
-
 // Of the body's lowest vertex.
 double height_over(const ConvexView& v, const Pose& pose, const Facet& facet) {
   const Vec3 n = pose.R.transpose() * facet.normal;
@@ -25,17 +21,14 @@ double height_over(const ConvexView& v, const Pose& pose, const Facet& facet) {
 
 bool cut_flats(const PartView& part, const Pose& pose, const SurfacePatch& patch,
                const std::vector<NearTriangle>& near, double thickness, OverlapWorkspace& work,
-               FacetOverlaps& out) {
+               FacetOverlaps& out, bool framed) {
   const ConvexView& core = part.core;
-  work.clear();
-  out.pieces.clear();
-  out.moments = OverlapMoments();
-  out.through = false;
-  bool framed = false;
+  const bool again = framed;
+  clear(work, out);
   Facet facet;
   FacePrism prism;
   for (const NearTriangle& t : near) {
-    if (t.overlap < -kAside * thickness) continue;
+    if (t.overlap <= -kAside * thickness) continue;
     make_facet(patch, t.triangle, t.shift, facet);
     const double height = height_over(core, pose, facet);
     const Vec3 into = -(pose.R.transpose() * facet.normal);
@@ -47,6 +40,8 @@ bool cut_flats(const PartView& part, const Pose& pose, const SurfacePatch& patch
       }
     }
   }
+  if (!again && turn_frame(work, out))
+    return cut_flats(part, pose, patch, near, thickness, work, out, true);
   return out.moments.volume > 0 && !out.pieces.empty();
 }
 
@@ -54,10 +49,7 @@ bool press_flats(const PartView& part, const Pose& pose, const PairMaterial& mat
                  const SurfacePatch& patch, const std::vector<NearTriangle>& near,
                  const SurfaceBalls& balls, OverlapWorkspace& work, FlatPressure& out) {
   out.nodal.clear(), out.share.clear(), out.arm.clear();
-  // As in flat_contact().
-  const double thickness = balls.overlap + (part.radius - balls.reach) +
-                           part.crown / 4 * part.core.radius * part.core.radius;
-  const bool overlaps = cut_flats(part, pose, patch, near, thickness, work, out.cut);
+  const bool overlaps = cut_flats(part, pose, patch, near, thickness(part, balls), work, out.cut);
   out.through = out.cut.through;
   if (!overlaps) return false;
   out.shape = surface_shape(out.cut, work);

@@ -8,12 +8,17 @@
 
 namespace trackbed::dem {
 
-/// Cuts the prisms of the part with the triangles, which know their overlaps; `thickness`: no point
-/// of the grain is deeper behind the surface [m]. A point of the prism on a face with normal m is
-/// nearer to a facet than the core by r n.m at most, n into the facet: only faces with r n.m > h
-/// are looked at, h the core's height over the facet. False: nothing overlaps.
+/// Behind a facet's column the surface may have been met at a neighbour, aside by some times the
+/// depth: sides of columns lean by 45 degrees at a right-angled edge, more at sharper ones.
+inline constexpr double kAside = 10;
+
+/// Cuts the prisms of the part with the triangles, which know their overlaps where these are more
+/// than -kAside thickness; `thickness`: no point of the grain is deeper behind the surface [m]. A
+/// point of the prism on a face with normal m is nearer to a facet than the core by r n.m at most, n
+/// into the facet: only faces with r n.m > h are looked at, h the core's height over the facet.
+/// `framed`: in the frame that the result has. False: nothing overlaps.
 bool cut_flats(const PartView&, const Pose&, const SurfacePatch&, const std::vector<NearTriangle>&,
-               double thickness, OverlapWorkspace&, FacetOverlaps&);
+               double thickness, OverlapWorkspace&, FacetOverlaps&, bool framed = false);
 
 /// What the flat parts answer with, before friction.
 struct FlatPressure {

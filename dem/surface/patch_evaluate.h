@@ -1,7 +1,6 @@
 // The loop over grains and one patch for one law, with or without friction. Included by the files
 // that make the instances, nowhere else.
 #pragma once
-#include <omp.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "dem/contact/friction.h"
 #include "dem/contact/pair_evaluate.h"
 #include "dem/contact/pressure.h"
+#include "dem/contact/shares.h"
 #include "dem/surface/facet_cut.h"
 #include "dem/surface/patch_forces.h"
 #include "dem/surface/shell_cell.h"
@@ -121,15 +121,34 @@ inline bool cut_facet(const ConvexView& grain, const Pose& pose, const SurfacePa
   return clip_cells(grain, pose, patch, triangle, shift, work, out);
 }
 
-/// Cuts the grain of contact i with the facets it reaches. False: none.
-inline bool cut_facets(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
-                       double travel, OverlapWorkspace& work, PatchContacts& k, int i,
-                       FacetOverlaps& out) {
-  bool framed = false;
+/// Makes all but the frame anew.
+inline void clear(OverlapWorkspace& work, FacetOverlaps& out) {
   work.clear();
   out.pieces.clear();
   out.moments = OverlapMoments();
   out.through = false;
+}
+
+/// A thin overlap keeps its digits only in a frame along its own normal. The frame is the first
+/// facet's; at an edge that may be one the grain hardly reaches, while it lies flat on the other.
+/// True: the frame is now along the surface's vector area, and the overlap is to be cut again.
+inline bool turn_frame(const OverlapWorkspace& work, FacetOverlaps& out) {
+  Vec3 area = Vec3::Zero();
+  for (const SurfacePiece& s : out.pieces) area += work.b_pieces[s.piece].area;
+  const double size2 = area.squaredNorm();
+  if (!(size2 > 0) || area.z() * area.z() >= 0.99 * size2) return false;  // within 6 degrees
+  const ContactFrame& frame = out.frame;
+  out.frame = surface_frame(frame.origin + frame.axes * out.moments.about,
+                            (frame.axes * area).normalized());
+  return true;
+}
+
+/// Cuts the grain of contact i with the facets it reaches. False: none.
+inline bool cut_facets(const ConvexView& grain, const Pose& pose, const SurfacePatch& patch,
+                       double travel, OverlapWorkspace& work, PatchContacts& k, int i,
+                       FacetOverlaps& out, bool framed = false) {
+  const bool again = framed;
+  clear(work, out);
   for (int e = k.first[i]; e < k.first[i + 1]; ++e) {
     if (travel + k.node_travel < k.wake[e]) continue;
     Facet facet;
@@ -147,6 +166,8 @@ inline bool cut_facets(const ConvexView& grain, const Pose& pose, const SurfaceP
     k.wake[e] = reached ? kReached : 0;
     framed |= reached;
   }
+  if (!again && turn_frame(work, out))
+    return cut_facets(grain, pose, patch, travel, work, k, i, out, true);
   return out.moments.volume > 0;
 }
 
@@ -312,20 +333,20 @@ void evaluate_patch(const Bodies& b, const ShapeTable& shapes, const PairMateria
   if (static_cast<int>(k.workspaces.size()) < c.threads) k.workspaces.resize(c.threads);
   find_awake(travel, k);
   const int awake = static_cast<int>(k.awake.size());
-  int through = k.round;    // first contact of a grain that the shell cannot hold
-  constexpr int share = 8;  // of a thread at a time; the next contact beyond it may be another's
-#pragma omp parallel for schedule(dynamic, share) num_threads(c.threads) \
-    reduction(min                                                        \
-              : through) if (c.threads > 1)
-  for (int n = 0; n < awake; ++n) {
-    const int i = k.awake[n];
-    const int end = c.threads > 1 ? std::min(awake, (n / share + 1) * share) : awake;
-    if (n + 2 < end) fetch_contact(b, shapes, k, k.awake[n + 2]);
-    if (n + 1 < end) fetch_shape(b, shapes, k, k.awake[n + 1]);
-    if (!evaluate_patch_contact<Law, friction>(b, shapes, materials, c, travel, patch,
-                                               k.workspaces[omp_get_thread_num()], k, i))
-      through = std::min(through, i);
-  }
+  std::atomic<int> through = k.round;  // first contact of a grain that the shell cannot hold
+  constexpr int share = 8;             // the next contact beyond it may be another thread's
+  const int shares = (awake + share - 1) / share;
+  by_shares(shares, shares, c.threads, [&](int s, int t) {
+    const int end = std::min(awake, (s + 1) * share);
+    for (int n = s * share; n < end; ++n) {
+      const int i = k.awake[n];
+      if (n + 2 < end) fetch_contact(b, shapes, k, k.awake[n + 2]);
+      if (n + 1 < end) fetch_shape(b, shapes, k, k.awake[n + 1]);
+      if (!evaluate_patch_contact<Law, friction>(b, shapes, materials, c, travel, patch,
+                                                 k.workspaces[t], k, i))
+        lower_to(i, through);
+    }
+  });
   if (through < k.round)
     throw RunError("grain " + std::to_string(k.grain[through]) + " goes deeper into surface '" +
                    patch.name + "' than its contact shell of " +

@@ -128,11 +128,12 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
 
   std::vector<TriangleFinder::Hit> hits;
   std::vector<Vec3> images;
-  const auto search = [&](int i, int part, bool round) {
+  const auto search = [&](int i, int part) {
     finder.find(part_box(b, shapes, i, part, reach), c.period, hits, images);
     if (hits.empty()) return;
     const auto found = old_contact.find({i, part});
     const int before = found == old_contact.end() ? -1 : found->second;
+    const bool point = shapes.part(b.shape[i], part).kind == Core::point;
     contacts.grain.push_back(i);
     contacts.part.push_back(part);
     contacts.first.push_back(static_cast<int>(contacts.triangle.size()));
@@ -142,7 +143,7 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
       contacts.triangle.push_back(hit.triangle);
       contacts.shift.push_back(shift);
       contacts.axis.push_back(entry < 0 ? Vec3(Vec3::Zero()) : old.axis[entry]);
-      contacts.wake.push_back(entry < 0 || round ? 0 : old.wake[entry]);
+      contacts.wake.push_back(entry < 0 || point ? 0 : old.wake[entry]);
     }
     const auto carry = [&](auto& to, const auto& from, auto fresh) {
       to.push_back(before >= 0 ? from[before] : fresh);
@@ -169,7 +170,7 @@ void search_patch(const Bodies& b, const ShapeTable& shapes, const SurfacePatch&
   for (const bool round : {false, true}) {
     for (int i = 0; i < b.grains; ++i)
       for (int part = 0; part < shapes.parts(b.shape[i]); ++part)
-        if ((shapes.part(b.shape[i], part).kind != Core::plain) == round) search(i, part, round);
+        if ((shapes.part(b.shape[i], part).kind != Core::plain) == round) search(i, part);
     if (!round) contacts.round = contacts.size();
   }
   contacts.first.push_back(static_cast<int>(contacts.triangle.size()));

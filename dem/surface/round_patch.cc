@@ -9,6 +9,7 @@
 #include "dem/contact/laws/hertz_mindlin.h"
 #include "dem/contact/laws/linear.h"
 #include "dem/contact/laws/sun2015.h"
+#include "dem/contact/shares.h"
 #include "dem/surface/flat_patch.h"
 #include "dem/surface/surface_balls.h"
 
@@ -91,28 +92,65 @@ const PartView& part_of(const ShapeTable& shapes, int shape, int k) {
   return Law::flats ? shapes.flat_part(shape, k) : shapes.part(shape, k);
 }
 
+/// By how much the part may overlap triangle e at most [m]: the last look's overlap and what both
+/// travelled since. Of one never looked at, as if the part were its bounding ball; what lies behind
+/// a triangle is as near as its inner nodes are deep.
+double most_overlap(const PartView& part, const Vec3& x, const SurfacePatch& patch, double now,
+                    const PatchContacts& k, int e) {
+  if (k.wake[e] != 0) return now - k.wake[e];
+  Vec3 corner[3];
+  double weight[3], deep = 0;
+  for (int j = 0; j < 3; ++j) {
+    const int node = patch.triangle[k.triangle[e]][j];
+    corner[j] = patch.node[node] + k.shift[e] - x;
+    deep = std::max(deep, patch.inset[node].norm());
+  }
+  const Vec3 nearest = closest_on_triangle(Vec3::Zero(), corner[0], corner[1], corner[2], weight);
+  return part.core.radius + part.radius + part.crown / 2 * part.mean_square + deep - nearest.norm();
+}
+
+/// Where the part is deepest. Tells each triangle, or the first for all, how long it is apart.
+template <class Law>
+SurfaceBalls find_balls(const Bodies& b, const PartView& part, const SurfacePatch& patch,
+                        double now, std::vector<NearTriangle>& near, PatchContacts& k, int i) {
+  const int g = k.grain[i], first = k.first[i], last = k.first[i + 1];
+  near.clear();
+  for (int e = first; e < last; ++e) near.push_back({k.triangle[e], k.shift[e]});
+  if (part.kind == Core::point) {
+    const SurfaceBalls best =
+        sphere_on_surface(b.x[g], b.R[g] * part.centre, part.radius, patch, near);
+    if (best.on.triangle >= 0 && !(best.overlap > 0)) k.wake[first] = now - best.overlap;
+    return best;
+  }
+  for (int e = first; e < last; ++e)
+    near[e - first].overlap = most_overlap(part, b.x[g], patch, now, k, e);
+  const SurfaceBalls best =
+      core_on_surface(part, b.x[g], b.R[g], k.arm[i], patch, Law::flats ? kAside : 0, near);
+  for (int e = first; e < last; ++e)
+    if (near[e - first].exact || k.wake[e] == 0) k.wake[e] = now - near[e - first].overlap;
+  return best;
+}
+
 /// False: deeper in the surface than its shell reaches, or with its core.
 template <class Law, bool friction>
 bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMaterials& materials,
                       const StepContext& c, const std::vector<double>& travel,
-                      const SurfacePatch& patch, PatchContacts& k, int i) {
-  const int g = k.grain[i], first = k.first[i];
+                      const SurfacePatch& patch, OverlapWorkspace& work, PatchContacts& k, int i) {
+  const int g = k.grain[i];
   const PartView& part = part_of<Law>(shapes, b.shape[g], k.part[i]);
+  const bool point = part.kind == Core::point;
   k.viscous_loss[i] = 0;
-  if (travel[g] + k.node_travel < k.wake[first]) {
+  const double now = travel[g] + k.node_travel;
+  const auto apart = [now](double wake) { return now < wake; };
+  const double* wake = k.wake.data() + k.first[i];
+  if (std::all_of(wake, point ? wake + 1 : k.wake.data() + k.first[i + 1], apart)) {
     k.friction_loss[i] = 0;
     return true;
   }
   static thread_local std::vector<NearTriangle> near;
-  near.clear();
-  for (int e = first; e < k.first[i + 1]; ++e) near.push_back({k.triangle[e], k.shift[e], 0});
-  const bool point = part.kind == Core::point;
-  const SurfaceBalls best =
-      point ? sphere_on_surface(b.x[g], b.R[g] * part.centre, part.radius, patch, near)
-            : core_on_surface(part, b.x[g], b.R[g], k.arm[i], patch, near);
+  const SurfaceBalls best = find_balls<Law>(b, part, patch, now, near, k, i);
   k.nodal[i].clear();
   if (best.on.triangle < 0 || !(best.overlap > 0)) {
-    if (best.on.triangle >= 0) k.wake[first] = travel[g] + k.node_travel - best.overlap;
     release(k, i);
     return true;
   }
@@ -120,8 +158,7 @@ bool evaluate_contact(const Bodies& b, const ShapeTable& shapes, const PairMater
   const PairMaterial& material = materials(b.material[g], patch.material);
   if constexpr (Law::flats) {
     static thread_local FlatPressure flat;
-    if (!point && press_flats(part, {b.R[g], b.x[g]}, material, patch, near, best,
-                              k.workspaces[omp_get_thread_num()], flat)) {
+    if (!point && press_flats(part, {b.R[g], b.x[g]}, material, patch, near, best, work, flat)) {
       respond_flats<Law, friction>(b, part, material, c, patch, best, flat, k, i);
       return !flat.through;
     }
@@ -135,13 +172,16 @@ void evaluate(const Bodies& b, const ShapeTable& shapes, const PairMaterials& ma
               const StepContext& c, const std::vector<double>& travel, const SurfacePatch& patch,
               PatchContacts& k) {
   if (static_cast<int>(k.workspaces.size()) < c.threads) k.workspaces.resize(c.threads);
-  int through = k.size();  // first contact of a grain that is too deep
-#pragma omp parallel for schedule(dynamic, 4) num_threads(c.threads) \
-    reduction(min                                                    \
-              : through) if (c.threads > 1)
-  for (int i = k.round; i < k.size(); ++i)
-    if (!evaluate_contact<Law, friction>(b, shapes, materials, c, travel, patch, k, i))
-      through = std::min(through, i);
+  std::atomic<int> through = k.size();  // first contact of a grain that is too deep
+  constexpr int share = 4;
+  const int shares = (k.size() - k.round + share - 1) / share;
+  by_shares(shares, shares, c.threads, [&](int s, int t) {
+    const int first = k.round + s * share;
+    for (int i = first; i < std::min(k.size(), first + share); ++i)
+      if (!evaluate_contact<Law, friction>(b, shapes, materials, c, travel, patch, k.workspaces[t],
+                                           k, i))
+        lower_to(i, through);
+  });
   if (through < k.size())
     throw RunError("grain " + std::to_string(k.grain[through]) + " goes deeper into surface '" +
                    patch.name + "' than its contact can follow: the contact is too soft for its " +

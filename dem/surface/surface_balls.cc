@@ -70,10 +70,16 @@ SurfaceBalls sphere_on_surface(const Vec3& x, const Vec3& centre, double r,
   return out;
 }
 
+double thickness(const PartView& part, const SurfaceBalls& balls) {
+  return balls.overlap + (part.radius - balls.reach) +
+         part.crown / 4 * part.core.radius * part.core.radius;
+}
+
 SurfaceBalls core_on_surface(const PartView& part, const Vec3& x, const Mat3& R, const Vec3& start,
-                             const SurfacePatch& patch, std::vector<NearTriangle>& near) {
+                             const SurfacePatch& patch, double aside,
+                             std::vector<NearTriangle>& near) {
   SurfaceBalls best;
-  for (NearTriangle& t : near) {
+  const auto look_at = [&](NearTriangle& t) {
     const Corners corners(patch, t.triangle, t.shift - x);
     ShellCell solid;
     make_shell_cell(patch, 3 * t.triangle, t.shift - x, solid);
@@ -83,14 +89,24 @@ SurfaceBalls core_on_surface(const PartView& part, const Vec3& x, const Mat3& R,
     const DeepestBalls d =
         deepest_balls(part, R, flat, {Mat3::Identity(), solid.origin}, start, axis);
     t.overlap = d.overlap;
-    if (d.overlap <= best.overlap) continue;
+    t.exact = true;
+    if (d.overlap <= best.overlap) return;
     best.overlap = d.overlap;
     best.reach = d.ra;
     best.n = d.n;
     best.y = closest_on_triangle(d.y, corners.p[0], corners.p[1], corners.p[2], best.weight);
     best.on = t;
+  };
+  // The most promising first: mostly the one of the last step, and no other is as deep.
+  while (true) {
+    double least = 0;
+    if (best.overlap > 0) least = aside > 0 ? -aside * thickness(part, best) : best.overlap;
+    NearTriangle* next = nullptr;
+    for (NearTriangle& t : near)
+      if (!t.exact && t.overlap > least) least = t.overlap, next = &t;
+    if (!next) return best;
+    look_at(*next);
   }
-  return best;
 }
 
 }  // namespace trackbed::dem

@@ -9,11 +9,12 @@
 namespace trackbed::dem {
 
 /// A triangle near a grain, its periodic image, and by how much the grain's deepest balls overlap
-/// it (negative: apart) [m].
+/// it at most (negative: apart) [m]; `exact` where they were looked for.
 struct NearTriangle {
   int triangle = -1;
   Vec3 shift = Vec3::Zero();
-  double overlap = 0;
+  double overlap = HUGE_VAL;
+  bool exact = false;
 };
 
 struct SurfaceBalls {
@@ -29,9 +30,15 @@ struct SurfaceBalls {
 SurfaceBalls sphere_on_surface(const Vec3& x, const Vec3& centre, double r, const SurfacePatch&,
                                const std::vector<NearTriangle>&);
 
-/// Of a dilated polyhedron at x, orientation R; `start` is where the contact was last, from x. Sets
-/// the triangles' overlaps.
+/// No point of a part with these deepest balls is deeper behind the surface [m]: as in
+/// flat_contact().
+double thickness(const PartView&, const SurfaceBalls&);
+
+/// Of a dilated polyhedron at x, orientation R; `start` is where the contact was last, from x.
+/// Only triangles are looked at whose bound lets them hold the deepest balls; with `aside` > 0 also
+/// those that the part overlaps or misses by less than aside times its thickness. Sets their
+/// overlaps.
 SurfaceBalls core_on_surface(const PartView&, const Vec3& x, const Mat3& R, const Vec3& start,
-                             const SurfacePatch&, std::vector<NearTriangle>&);
+                             const SurfacePatch&, double aside, std::vector<NearTriangle>&);
 
 }  // namespace trackbed::dem

@@ -12,13 +12,17 @@ namespace trackbed::dem::test {
 
 struct PairLaw {
   std::string law = "stored_energy", round_law = "hertz_mindlin";
-  double modulus = 1;  ///< [Pa]
+  double modulus = 1;    ///< [Pa]
+  double stiffness = 0;  ///< of `linear` [N/m]
 };
 
 /// A twentieth of the limit of two grains that are let go where they stand [s].
 inline double step_of_pair(const PackedGrains& pair, const PairLaw& law, double density) {
   Scene s(law.modulus, 0, law.law);
   s.round = make_round_forces(law.round_law, false);
+  PairMaterial m = s.materials(0, 0);
+  m.stiffness = law.stiffness;
+  s.materials.set(0, 0, m);
   for (int i = 0; i < 2; ++i) s.add(pair.shape[i], density, pair.centre[i], pair.turn[i]);
   s.prepare();
   const double limit = measured_limit(s.bodies, s.pairs, 1).dt;
@@ -42,8 +46,9 @@ inline void keep_pair(PackedGrains pair, const PairLaw& law, const std::string& 
   std::ofstream prm(stem + ".prm");
   prm << "set Title = Offender\n"
       << "subsection Contact\n  set Law = " << law.law << "\n  set Round law = " << law.round_law
-      << "\n  set Contact modulus = " << law.modulus
-      << "\n  set Restitution = 1\n  set Largest overlap = 0.5\nend\n"
+      << "\n  set Contact modulus = " << law.modulus;
+  if (law.stiffness > 0) prm << "\n  set Stiffness = " << law.stiffness;
+  prm << "\n  set Restitution = 1\n  set Largest overlap = 0.5\nend\n"
       << "subsection Grains\n  set Density = " << kDensity << "\n  set Friction = 0\nend\n"
       << "subsection Numerics\n  set Time step = " << step_of_pair(pair, law, kDensity) << "\nend\n"
       << "subsection Replay\n  set Bodies = " << fs::path(stem).filename().string()

@@ -1,6 +1,7 @@
 // A patch with grains on it, for tests: meshes of quads, one evaluation, and the steps of a scene
 // whose only contacts are grains on the patch.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -56,6 +57,16 @@ inline Mesh edge_mesh(int nx, int ny, double half) {
   Mesh m = flat_mesh(2 * nx, ny, -half, half, -half, half);
   for (Vec3& p : m.nodes)
     if (p.x() > 0) p = Vec3(0, p.y(), -p.x());
+  return m;
+}
+
+/// The same by `angle`, the side below the edge first in number.
+inline Mesh folded_mesh(int n, double half, double angle) {
+  Mesh m = flat_mesh(2 * n, n, -half, half, -half, half);
+  std::stable_partition(m.quads.begin(), m.quads.end(),
+                        [&](const auto& q) { return m.nodes[q[1]].x() > 1e-9; });
+  for (Vec3& p : m.nodes)
+    if (p.x() > 0) p = Vec3(p.x() * std::cos(angle), p.y(), -p.x() * std::sin(angle));
   return m;
 }
 

@@ -50,6 +50,7 @@ inline std::vector<Plane> planes(const Polyhedron& body, const Pose& pose) {
 struct Exact {
   double volume;
   Vec3 centroid;
+  Mat3 second = Mat3::Zero();  ///< int (x-c)(x-c)^T dV, c the centroid [m5]
 };
 
 /// volume -1 when `inside` is not strictly inside of all planes.
@@ -57,9 +58,15 @@ inline Exact exact_overlap(std::vector<Plane> all, const Vec3& inside) {
   CGAL::Polyhedron_3<Kernel> solid;
   const Point o(inside.x(), inside.y(), inside.z());
   for (const Plane& plane : all)
-    if (!plane.has_on_negative_side(o)) return {-1, Vec3::Zero()};
+    if (!plane.has_on_negative_side(o)) return {-1, Vec3::Zero(), Mat3::Zero()};
   CGAL::halfspace_intersection_with_constructions_3(all.begin(), all.end(), solid, o);
+  // Of a lazy number to_double() is true to 1e-5 only, unless it is asked for its exact value.
+  const auto value = [](const Kernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); };
+  const auto vec = [&](const Kernel::Vector_3& v) {
+    return Vec3(value(v[0]), value(v[1]), value(v[2]));
+  };
   Kernel::FT volume = 0, first[3] = {0, 0, 0};
+  Mat3 second = Mat3::Zero();  // about `inside`; all its parts are positive
   for (auto f = solid.facets_begin(); f != solid.facets_end(); ++f) {
     auto h = f->facet_begin();
     const auto a = h->vertex()->point() - o;
@@ -69,14 +76,18 @@ inline Exact exact_overlap(std::vector<Plane> all, const Vec3& inside) {
       const Kernel::FT six = CGAL::determinant(a, b, c);
       volume += six;
       for (int i = 0; i < 3; ++i) first[i] += six * (a[i] + b[i] + c[i]);
+      const Vec3 p = vec(a), q = vec(b), r = vec(c), sum = p + q + r;
+      second += value(six) / 120 *
+                (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
       b = c;
     }
   }
-  // Of a lazy number to_double() is true to 1e-5 only, unless it is asked for its exact value.
-  const auto value = [](const Kernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); };
   Exact e;
   e.volume = value(volume / 6);
-  for (int i = 0; i < 3; ++i) e.centroid(i) = inside(i) + value(first[i] / (4 * volume));
+  Vec3 way;  // to the centroid
+  for (int i = 0; i < 3; ++i) way(i) = value(first[i] / (4 * volume));
+  e.centroid = inside + way;
+  e.second = second - e.volume * way * way.transpose();
   return e;
 }
 

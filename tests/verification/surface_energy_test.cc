@@ -110,6 +110,30 @@ TEST(Gradient, at_a_sleepers_edge) {
   }
 }
 
+// A block lies by an edge of its own on the top beside a mesh's edge and reaches over that a little:
+// all but a sliver is a prism in the top, of length L, two d wide and d deep, of which
+//   U = 2/(3 sqrt(pi)) E sqrt(L) d dbar^(3/2),  dbar^2 = 12 d^2/sqrt(360),  F = 5/2 U/d.
+// In a frame along the first facet reached, that side's, such an overlap has no second moments left
+// (found by hard/fuzz_surface).
+TEST(Edge, thin_contact_beside_it_keeps_its_digits) {
+  for (const double angle : {.3, 1.}) {
+    const Quat turn = turn_about({1, 2, 3}, .7);
+    Mesh mesh = folded_mesh(3, 3, angle);
+    turn_mesh(mesh, turn);
+    PatchScene s(mesh, .2, 0, 1);
+    const double d = 1e-5, length = .8;
+    s.add(make_box({1, .5, .5}), 1, turn * Vec3(-.3, .05, std::sqrt(.125) - d),
+          turn * turn_about({1, 0, 0}, M_PI / 4));
+    s.evaluate_afresh();
+    ASSERT_GT(s.contacts.nodal[0].size(), 3u);
+    const double energy = 2 / (3 * std::sqrt(M_PI)) * std::sqrt(length) * d *
+                          std::pow(12 / std::sqrt(360.), .75) * std::pow(d, 1.5);
+    const Vec3 force = turn * Vec3(0, 0, 2.5 * energy / d);
+    EXPECT_NEAR(s.energy(), energy, 1e-4 * energy) << angle;
+    EXPECT_LT((s.bodies.force[0] - force).norm(), 1e-4 * force.norm()) << angle;
+  }
+}
+
 // Held at one height and moved over element edges and nodes, a grain feels one force.
 TEST(NoBump, grain_held_over_facets) {
   Random random(4);

@@ -6,6 +6,7 @@
 #include "dem/grain/parts.h"
 #include "dem/grain/random.h"
 #include "dem/surface/round_patch.h"
+#include "dem/surface/surface_balls.h"
 #include "surface_scene.h"
 
 namespace trackbed::dem {
@@ -159,6 +160,67 @@ TEST(RoundOnSurface, clump_rests_on_its_spheres_with_friction) {
   for (int k = 0; k < 20000; ++k) s.step();
   EXPECT_EQ(count_contacts(s.contacts), 3);
   EXPECT_NEAR(s.nodal_sum().z(), -9.81 * s.bodies.mass[0], 1e-3 * 9.81 * s.bodies.mass[0]);
+}
+
+// A swell that runs through the surface, 1 cm high.
+void heave(PatchScene& p, const std::vector<Vec3>& level) {
+  double most = 0;
+  for (int n = 0; n < p.patch.carried; ++n) {
+    const double height = .01 * std::sin(40 * p.time + 7 * level[n].x() + 5 * level[n].y());
+    const Vec3 before = p.patch.node[n];
+    p.patch.node[n] = level[n] + Vec3(0, 0, height);
+    p.patch.velocity[n] = (p.patch.node[n] - before) / p.context.dt;
+    most = std::max(most, (p.patch.node[n] - before).norm());
+  }
+  move_skirt(p.patch);
+  p.contacts.node_travel += most;
+}
+
+// Most triangles are not looked at, because grain and surface were too far apart and have not come
+// that far since: the deepest balls are still those of all triangles. A grain that tumbles over a
+// surface in motion, and one that is held.
+TEST(RoundOnSurface, looks_at_all_triangles_that_may_hold_the_deepest_balls) {
+  for (const std::string law : {"hertz_mindlin", "hertz_flat"})
+    for (const bool held : {false, true}) {
+      RoundScene s(wavy_mesh(16, .01), 1e7);
+      s.law = make_round_patch_forces(law, false);
+      s.skin = .05;
+      s.context.gravity = {1, .6, -9.81};
+      s.context.dt = 1e-4;
+      s.add_shape(dilated_box(), {-.4, -.4, .4},
+                  Quat(Eigen::AngleAxisd(.8, Vec3(1, 2, .5).normalized())));
+      const std::vector<Vec3> level = s.patch.node;
+      s.drive = [&level](PatchScene& p) { heave(p, level); };
+      s.evaluate_afresh();
+      if (held) {
+        s.bodies.freedom[0] = kFixed;
+        for (; count_contacts(s.contacts) == 0; s.evaluate_afresh()) s.bodies.x[0].z() -= .001;
+      } else {
+        set_spin(s.bodies, 0, {1, -2, .5});
+      }
+      int touching = 0, apart = 0;
+      for (int k = 0; k < 9000; ++k) {
+        s.step();
+        if (k % 29) continue;
+        const int shape = s.bodies.shape[0];
+        const PartView& part =
+            law == "hertz_flat" ? s.shapes.flat_part(shape, 0) : s.shapes.part(shape, 0);
+        std::vector<NearTriangle> all;
+        for (std::size_t t = 0; t < s.patch.triangle.size(); ++t)
+          all.push_back({static_cast<int>(t), Vec3::Zero()});
+        const SurfaceBalls deepest =
+            core_on_surface(part, s.bodies.x[0], s.bodies.R[0], Vec3::Zero(), s.patch, 0, all);
+        PatchScene afresh = s;
+        afresh.evaluate_afresh();
+        ASSERT_EQ(s.contacts.size() > 0 && s.contacts.touching[0], deepest.overlap > 0) << k;
+        ++(deepest.overlap > 0 ? touching : apart);
+        if (!(deepest.overlap > 0)) continue;
+        ASSERT_NEAR(s.contacts.depth[0], deepest.overlap, 1e-12) << law << k;
+        ASSERT_NEAR(s.energy(), afresh.energy(), 1e-9 * afresh.energy()) << law << k;
+      }
+      EXPECT_GT(touching, 40) << law << held;
+      EXPECT_GT(apart, 40) << law << held;
+    }
 }
 
 }  // namespace
