@@ -25,9 +25,9 @@ named=("${tests[@]}")
 of_address=(contact_overlap contact_feature contact_separation contact_law pairs_friction
   pairs_resistance pairs_candidates pairs_shares clump_contact ball_features flat_contact dilated_contact
   union_contact motion_rotation motion_together sphere_impact
-  motion_damping motion_pile surface_facet surface_patch surface_round surface_flat packing_file packing_duplicate
+  motion_damping motion_pile surface_facet surface_patch surface_energy surface_round surface_flat packing_file packing_duplicate
   grain_files grain_polyhedron)
-of_thread=(bed_threads pairs_shares 'clump_contact:*threads*')
+of_thread=(bed_threads pairs_shares surface_threads 'clump_contact:*threads*')
 
 export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=0

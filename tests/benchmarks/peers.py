@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Other codes on the same settled boxes, where Debian's packages `yade` and `liggghts` are installed.
 
-    tests/benchmarks/peers.py SHAPES_BENCHMARK [--grains 1000] [--threads 1]
+    tests/benchmarks/peers.py SHAPES_BENCHMARK [--grains 1000] [--threads 1] [--rounds 3]
 
 SHAPES_BENCHMARK is the built program of that name. It settles a box of each shape, times Trackbed on
 it and leaves the grains in a file; YADE (polyhedra, clumps, spheres) and LIGGGHTS (spheres) are given
@@ -125,14 +125,35 @@ def run_liggghts(bed, steps, dt, threads, multisphere):
         return float(loops[-1]), processor, float(rows[-1]) / 2  # each pair is seen from both sides
 
 
-def liggghts(bed, steps, dt, threads, multisphere):
+def least(times):
+    """Of (seconds, touching pairs) the one of least time; None if one failed."""
+    return None if None in times else min(times)
+
+
+def liggghts(bed, steps, dt, threads, multisphere, rounds):
     """Seconds per step, touching pairs. LIGGGHTS tells wall time, which other work on the machine adds to: on one
-    thread, processor time of more steps less that of few."""
-    few = run_liggghts(bed, steps, dt, threads, multisphere)
+    thread, processor time of more steps less that of few, each the least of some rounds."""
+    def run(many):
+        answer = run_liggghts(bed, many, dt, threads, multisphere)
+        return answer and (answer[0 if threads > 1 else 1], answer[2])
+
+    few = least([run(steps) for _ in range(rounds)])
     if few is None or threads > 1:
-        return few and (few[0] / steps, few[2])
-    many = run_liggghts(bed, 11 * steps, dt, threads, multisphere)
-    return many and ((many[1] - few[1]) / (10 * steps), many[2])
+        return few and (few[0] / steps, few[1])
+    many = least([run(11 * steps) for _ in range(rounds)])
+    return many and ((many[0] - few[0]) / (10 * steps), many[1])
+
+
+def trackbed(args, shape, folder):
+    """Seconds per touching pair, touching pairs, time step [s]."""
+    answers = []
+    for _ in range(args.rounds):
+        subprocess.run([args.benchmark, str(args.grains), str(args.steps), str(folder), shape, str(args.threads)],
+                       check=True, stdout=sys.stderr)
+        with open(folder / "shapes.csv") as file:
+            answers += [(float(row["seconds_per_touching_pair"]), int(row["touching_pairs"]), float(row["time_step_s"]))
+                        for row in csv.DictReader(file) if int(row["threads"]) == args.threads]
+    return min(answers)
 
 
 def main():
@@ -142,40 +163,41 @@ def main():
     parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--only", default="", help="one shape")
+    parser.add_argument("--rounds", type=int, default=3, help="of which the least time of each code counts")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        subprocess.run([args.benchmark, str(args.grains), str(args.steps), name, args.only, str(args.threads)],
-                       check=True, stdout=sys.stderr)
-        own = {}
-        with open(folder / "shapes.csv") as file:
-            for row in csv.DictReader(file):
-                if int(row["threads"]) == args.threads:
-                    own[row["shape"]] = (float(row["seconds_per_touching_pair"]), int(row["touching_pairs"]),
-                                         float(row["time_step_s"]))
         slow = max(20, args.steps // 50)  # steps of YADE's polyhedra
-        runs = [("polyhedra", "YADE", lambda bed, dt: yade(bed, slow, args.threads)),
-                ("clumps of 8", "YADE", lambda bed, dt: yade(bed, args.steps, args.threads)),
-                ("spheres", "YADE", lambda bed, dt: yade(bed, args.steps, args.threads)),
-                ("spheres", "LIGGGHTS", lambda bed, dt: liggghts(bed, args.steps, dt, args.threads, False)),
-                ("clumps of 8", "LIGGGHTS", lambda bed, dt: liggghts(bed, args.steps, dt, args.threads, True))]
+
+        def with_yade(bed, steps):
+            return least([yade(bed, steps, args.threads) for _ in range(args.rounds)])
+
+        def with_liggghts(bed, dt, multisphere):
+            return liggghts(bed, args.steps, dt, args.threads, multisphere, args.rounds)
+
+        runs = {"polyhedra": [("YADE", lambda bed, dt: with_yade(bed, slow))],
+                "clumps of 8": [("YADE", lambda bed, dt: with_yade(bed, args.steps)),
+                                ("LIGGGHTS", lambda bed, dt: with_liggghts(bed, dt, True))],
+                "spheres": [("YADE", lambda bed, dt: with_yade(bed, args.steps)),
+                            ("LIGGGHTS", lambda bed, dt: with_liggghts(bed, dt, False))]}
         print("| shape | code | touching pairs | us per touching pair | us per grain | Trackbed's pairs | us | us | ratio |")
         print("|---|---|---|---|---|---|---|---|---|")
-        for shape, code, run in runs:
+        for shape, codes in runs.items():
             if args.only not in ("", shape):
                 continue
-            if not shutil.which(code.lower()):
-                print(f"| {shape} | {code} | not installed | | | | | | |")
-                continue
-            mine, pairs, dt = own[shape]
-            answer = run(folder / f"{shape}.txt", dt)
-            if answer is None:
-                print(f"| {shape} | {code} | failed | | | | | | |")
-                continue
-            step, touching = answer
-            print(f"| {shape} | {code} | {touching:.0f} | {1e6 * step / touching:.3g} | {1e6 * step / args.grains:.3g} "
-                  f"| {pairs} | {1e6 * mine:.3g} | {1e6 * mine * pairs / args.grains:.3g} "
-                  f"| {step / (mine * pairs):.3g} |", flush=True)
+            mine, pairs, dt = trackbed(args, shape, folder)
+            for code, run in codes:
+                if not shutil.which(code.lower()):
+                    print(f"| {shape} | {code} | not installed | | | | | | |")
+                    continue
+                answer = run(folder / f"{shape}.txt", dt)
+                if answer is None:
+                    print(f"| {shape} | {code} | failed | | | | | | |")
+                    continue
+                step, touching = answer
+                print(f"| {shape} | {code} | {touching:.0f} | {1e6 * step / touching:.3g} "
+                      f"| {1e6 * step / args.grains:.3g} | {pairs} | {1e6 * mine:.3g} "
+                      f"| {1e6 * mine * pairs / args.grains:.3g} | {step / (mine * pairs):.3g} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -980,7 +980,7 @@ class GoesWrong(SceneTest):
 
     def test_a_pair_that_a_fuzzer_keeps(self):
         # As an offender would be: it runs, the two touch, and no energy is made.
-        for name, pair in (("fuzz_pairs", 8), ("fuzz_dilated", 0)):
+        for name, pair in (("fuzz_pairs", 8), ("fuzz_dilated", 0), ("fuzz_surface", 4)):
             subprocess.run([pathlib.Path(FUZZERS) / name, "--pairs", str(pair + 1), "--keep", str(pair), "--output", name],
                            cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
             scene = f"{name}/seed_1_pair_{pair}.prm"
