@@ -13,21 +13,12 @@
 #include "apps/trackbed/output_folder.h"
 #include "apps/trackbed/progress.h"
 #include "base/error.h"
+#include "tests/scratch_folder.h"
 
 namespace trackbed::apps {
 namespace {
 
-/// A fresh folder for each test.
-class Output : public testing::Test {
- protected:
-  Output() {
-    std::string name = (std::filesystem::temp_directory_path() / "trackbed.XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Output() override { std::filesystem::remove_all(folder_); }
-  std::string file(const std::string& name) const { return folder_ + "/" + name; }
-  std::string folder_;
-};
+class Output : public testing::Test, public ScratchFolder {};
 
 TEST_F(Output, CsvKeepsEveryBitOfADouble) {
   const double values[] = {0.1, 1.0 / 3, 1e-300, -2.5e17, 5e-324};

@@ -20,6 +20,7 @@
 #include "base/error.h"
 #include "dem/motion/bodies.h"
 #include "fem/subgrades/registry.h"
+#include "tests/scratch_folder.h"
 
 namespace trackbed::apps {
 namespace {
@@ -44,19 +45,7 @@ const fem::RegisterSubgrade here{
        return fem::make_point_bed(p);
      }}};
 
-class Parameters : public testing::Test {
- protected:
-  Parameters() {
-    std::string name = (std::filesystem::temp_directory_path() / "trackbed.XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Parameters() override { std::filesystem::remove_all(folder_); }
-  std::string write(const std::string& name, const std::string& text) const {
-    write_aside_then_rename(folder_ + "/" + name, text);
-    return folder_ + "/" + name;
-  }
-  std::string folder_;
-};
+class Parameters : public testing::Test, public ScratchFolder {};
 
 TEST(ParameterTable, EveryDefaultIsAllowed) {
   std::set<std::string> paths;
@@ -109,7 +98,7 @@ TEST_F(Parameters, PlainJsonWithNumbersAndLists) {
 }
 
 TEST_F(Parameters, IncludedFilesStandBelowTheIncludingOne) {
-  std::filesystem::create_directory(folder_ + "/common");
+  std::filesystem::create_directory(file("common"));
   write("common/base.prm", "subsection Loading\n  set Cycles = 7\n  set Frequency = 3\nend\n");
   const Scene scene = read_scene(
       write("a.prm", "include common/base.prm\nsubsection Loading\n  set Cycles = 9\nend\n"));

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <sstream>
 
 #include "apps/trackbed/files.h"
@@ -19,6 +18,7 @@
 #include "base/error.h"
 #include "coupling/edit.h"
 #include "dem/motion/monitor.h"
+#include "tests/scratch_folder.h"
 
 namespace trackbed::apps {
 namespace {
@@ -89,8 +89,7 @@ std::vector<std::vector<double>> rows_of(const std::string& file) {
 }
 
 TEST(Bearing, moment_and_seats_of_a_sleeper_in_the_air) {
-  std::string name = (std::filesystem::temp_directory_path() / "trackbed.XXXXXX").string();
-  const std::string folder = ::mkdtemp(name.data());
+  const ScratchFolder folder;
   const double load = 8e4;
   for (const char* seats : {"0", "-0.015, 0.015"})
     for (const char* half : {"false", "true"}) {
@@ -100,19 +99,18 @@ TEST(Bearing, moment_and_seats_of_a_sleeper_in_the_air) {
       const SleeperScene& s = run.scene.sleeper;
       add_rigid_sleeper(run);
       run.stage.load = load;
-      write_moment(run, folder + "/moment.csv");
-      write_rail_seats(run, folder + "/rail_seats.csv");
+      write_moment(run, folder.file("moment.csv"));
+      write_rail_seats(run, folder.file("rail_seats.csv"));
       // Of what lies right of x = 0: half of the load and of the weight.
       const double arm = s.seats.size() == 1 ? .02 / 4 : .015;
       const double weight = 9.81 * s.density * s.width * s.height * s.length / 2;
-      const auto moment = rows_of(folder + "/moment.csv");
+      const auto moment = rows_of(folder.file("moment.csv"));
       const auto& middle = run.scene.container.half ? moment.front() : moment[moment.size() / 2];
       EXPECT_NEAR(middle[0], 0, 1e-15);
       EXPECT_NEAR(middle[2], -load / 2 * arm - weight * s.length / 4, 1e-9 * load) << seats << half;
-      for (const auto& seat : rows_of(folder + "/rail_seats.csv"))
+      for (const auto& seat : rows_of(folder.file("rail_seats.csv")))
         EXPECT_NEAR(seat[2], load / static_cast<double>(s.seats.size()), 1e-9 * load) << half;
     }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Zones, of_no_margin_leave_coarse_grains_beside_the_sleeper) {

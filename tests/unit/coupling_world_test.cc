@@ -3,9 +3,9 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "coupling_scene.h"
+#include "tests/scratch_folder.h"
 #include "world_state.h"
 
 namespace trackbed::coupling {
@@ -18,10 +18,6 @@ dem::StepContext damped() {
   dem::StepContext c = context(kStep, kGravity);
   c.local_damping = .3;
   return c;
-}
-
-std::string file(const char* name) {
-  return scratch_file(std::string("coupling_world_test_") + name);
 }
 
 // Falls fast, so that the grains are on the subgrade and on each other soon.
@@ -38,8 +34,10 @@ void run_until_touching(World& w, const dem::StepContext& c) {
   FAIL() << "hardly anything touches";
 }
 
-TEST(Checkpoint, goes_on_bit_by_bit) {
-  const std::string path = file("resume");
+class Checkpoint : public testing::Test, public ScratchFolder {};
+
+TEST_F(Checkpoint, goes_on_bit_by_bit) {
+  const std::string path = file("checkpoint.h5");
   World w = bed(3, 2);
   throw_down(w);
   const dem::StepContext c = damped();
@@ -53,11 +51,10 @@ TEST(Checkpoint, goes_on_bit_by_bit) {
   load(again, path);
   run(again, c, 700);
   EXPECT_EQ(differing(w, again, kGravity), "");
-  std::filesystem::remove(path);
 }
 
-TEST(Checkpoint, truncated_is_named) {
-  const std::string path = file("truncated");
+TEST_F(Checkpoint, truncated_is_named) {
+  const std::string path = file("checkpoint.h5");
   World w = bed(2, 1);
   const dem::StepContext c = context(kStep, kGravity);
   start(w, c);
@@ -75,12 +72,11 @@ TEST(Checkpoint, truncated_is_named) {
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
     }
   }
-  std::filesystem::remove(path);
   EXPECT_THROW(load(w, path), InputError);
 }
 
-TEST(Checkpoint, of_another_scene_is_refused) {
-  const std::string path = file("other");
+TEST_F(Checkpoint, of_another_scene_is_refused) {
+  const std::string path = file("checkpoint.h5");
   World w = bed(2, 1);
   start(w, context(kStep, kGravity));
   save(w, path);
@@ -93,12 +89,11 @@ TEST(Checkpoint, of_another_scene_is_refused) {
       make_surface("subgrade", 0, .01, .05, Vec3::Zero(),
                    std::make_unique<fem::ElasticBody>(block(5e7, {.12, .12, .15}, {6, 6, 2}))));
   EXPECT_THROW(load(finer, path), InputError);
-  std::filesystem::remove(path);
 }
 
 // What is on disk stays whole until the new file is.
-TEST(Checkpoint, leaves_the_old_one_until_done) {
-  const std::string path = file("aside");
+TEST_F(Checkpoint, leaves_the_old_one_until_done) {
+  const std::string path = file("checkpoint.h5");
   World w = bed(2, 1);
   start(w, context(kStep, kGravity));
   save(w, path);
@@ -110,7 +105,6 @@ TEST(Checkpoint, leaves_the_old_one_until_done) {
   load(again, path);
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
   EXPECT_THROW(ArchiveWriter("/nowhere/checkpoint.h5"), RunError);
-  std::filesystem::remove(path);
 }
 
 TEST(Edit, keeps_contacts_of_what_remains) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "fem/elastic_body.h"
+#include "tests/scratch_folder.h"
 
 using namespace trackbed;
 using namespace trackbed::fem;
@@ -208,18 +209,18 @@ TEST(ElasticBody, MovesWithTranslation) {
 TEST(ElasticBody, WritesFieldsForParaView) {
   for (int order : {1, 2}) {
     auto p = block(order);
-    const std::string folder = testing::TempDir();
+    const ScratchFolder folder;
     ElasticBody body(p);
-    body.write_vtu(folder + "fem_body.vtu");
-    std::ifstream in(folder + "fem_body.vtu");
+    body.write_vtu(folder.file("fem_body.vtu"));
+    std::ifstream in(folder.file("fem_body.vtu"));
     const std::string text((std::istreambuf_iterator<char>(in)), {});
     for (const char* word :
          {"displacement_m", "velocity_m_per_s", "von_mises_Pa", "stress_zz_Pa", "material"})
       EXPECT_NE(text.find(word), std::string::npos) << word;
-    EXPECT_FALSE(std::ifstream(folder + "fem_body.vtu.part").good());
-    write_pvd(folder + "fem_body.pvd", {{0., "fem_body.vtu"}});
-    EXPECT_TRUE(std::ifstream(folder + "fem_body.pvd").good());
-    EXPECT_THROW(body.write_vtu(folder + "no_such_folder/x.vtu"), RunError);
+    EXPECT_FALSE(std::ifstream(folder.file("fem_body.vtu.part")).good());
+    write_pvd(folder.file("fem_body.pvd"), {{0., "fem_body.vtu"}});
+    EXPECT_TRUE(std::ifstream(folder.file("fem_body.pvd")).good());
+    EXPECT_THROW(body.write_vtu(folder.file("no_such_folder/x.vtu")), RunError);
   }
 }
 
@@ -288,7 +289,8 @@ TEST(ElasticBodyRefuses, StaticsOfABodyThatIsNotHeld) {
 }
 
 TEST(ElasticBodyRefuses, MeshFilesThatDoNotFit) {
-  const std::string file = testing::TempDir() + "fem_cell.msh";
+  const ScratchFolder folder;
+  const std::string file = folder.file("cell.msh");
   const auto write = [&](bool twisted, const char* name) {
     std::ofstream out(file);
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"" << name

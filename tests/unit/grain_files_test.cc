@@ -3,36 +3,22 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "base/error.h"
 #include "dem/grain/clump_io.h"
 #include "dem/grain/library.h"
 #include "dem/grain/off_io.h"
+#include "tests/scratch_folder.h"
 #include "tests/unit/grain_solids.h"
 
 namespace trackbed::dem {
 namespace {
 
-class Files : public ::testing::Test {
+class Files : public ::testing::Test, public ScratchFolder {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::temp_directory_path() / (std::string("trackbed_files_") + info->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name, const std::string& text = "") {
-    const std::string path = (folder_ / name).string();
-    if (!text.empty()) std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
   // The file is refused in one line that names it and holds `part`.
   void refused(const std::string& name, const std::string& text, const std::string& part) {
-    const std::string path = file(name, text);
+    const std::string path = text.empty() ? file(name) : write(name, text);
     try {
       read_solid(path);
       ADD_FAILURE() << name << " was read";
@@ -43,7 +29,6 @@ class Files : public ::testing::Test {
       EXPECT_EQ(what.find('\n'), std::string::npos) << what;
     }
   }
-  std::filesystem::path folder_;
 };
 
 const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
@@ -59,16 +44,16 @@ TEST_F(Files, OffRoundTripKeepsAllDigits) {
 }
 
 TEST_F(Files, OffWithCommentsUnitAndColours) {
-  const std::string path = file("a.off", "OFF # a corner\n4 4 0\n\n" + vertices +
-                                             "3 0 2 1 255 0 0\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const std::string path = write("a.off", "OFF # a corner\n4 4 0\n\n" + vertices +
+                                              "3 0 2 1 255 0 0\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   EXPECT_NEAR(mass_properties(read_solid(path)).volume, 1. / 6, 1e-15);
   EXPECT_NEAR(mass_properties(read_solid(path, {0.001, false})).volume, 1e-9 / 6, 1e-24);
 }
 
 TEST_F(Files, ObjWithNormalsAndNegativeIndices) {
-  const std::string path = file("a.OBJ",
-                                "o corner\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\n"
-                                "f 1//1 3//1 2//1\nf 1/1 2/2 4/3\nf -3 -2 -1\nf 1 4 3\n");
+  const std::string path = write("a.OBJ",
+                                 "o corner\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\n"
+                                 "f 1//1 3//1 2//1\nf 1/1 2/2 4/3\nf -3 -2 -1\nf 1 4 3\n");
   EXPECT_NEAR(mass_properties(read_solid(path)).volume, 1. / 6, 1e-15);
 }
 
@@ -95,11 +80,11 @@ std::string stl_cube(bool binary) {  // 12 triangles, turned, single precision
 }
 
 TEST_F(Files, StlAsciiAndBinaryMergeTheirTriangles) {
-  const Polyhedron b = read_solid(file("b.stl", stl_cube(true)));
+  const Polyhedron b = read_solid(write("b.stl", stl_cube(true)));
   EXPECT_EQ(b.vertices.size(), 8u);
   EXPECT_EQ(b.faces.size(), 6u);
   EXPECT_NEAR(mass_properties(b).volume, 1, 1e-6);
-  const Polyhedron a = read_solid(file("a.stl", stl_cube(false)));
+  const Polyhedron a = read_solid(write("a.stl", stl_cube(false)));
   EXPECT_EQ(a.vertices.size(), 8u);
   EXPECT_NEAR(mass_properties(a).volume, 1, 1e-5);
 }
@@ -147,7 +132,7 @@ TEST_F(Files, NotConvexIsRefusedOrReplacedByItsHull) {
 
 // A scanned stone as it is: mass, depth, convex parts, and the way back to a file.
 TEST_F(Files, NotConvexIsReadAsTriangles) {
-  const TriangleSolid solid = read_triangle_solid(file("pit.off", pit), 0.001);
+  const TriangleSolid solid = read_triangle_solid(write("pit.off", pit), 0.001);
   const MassProperties p = mass_properties(solid);
   EXPECT_NEAR(p.volume, 5 / 6. * 1e-9, 1e-22);  // a pyramid of height 1/2 is missing
   EXPECT_NEAR(p.centroid.z(), (0.5 - 0.875 / 6) / (5 / 6.) * 1e-3, 1e-15);
@@ -162,7 +147,7 @@ TEST_F(Files, NotConvexIsReadAsTriangles) {
   const TriangleSolid copy = read_triangle_solid(file("copy.off"));
   EXPECT_EQ(copy.triangles.size(), solid.triangles.size());
   EXPECT_NEAR(mass_properties(copy).volume, p.volume, 1e-22);
-  EXPECT_THROW(read_triangle_solid(file("open.off", pit.substr(0, pit.size() - 8))), InputError);
+  EXPECT_THROW(read_triangle_solid(write("open.off", pit.substr(0, pit.size() - 8))), InputError);
 }
 
 TEST_F(Files, SelfIntersectionIsNamed) {
@@ -171,7 +156,7 @@ TEST_F(Files, SelfIntersectionIsNamed) {
   deep = "OFF\n9 9 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n.5 .5 -.4\n" +
          deep.substr(deep.find("4 0 3 2 1"));
   refused("deep.off", deep, "intersects itself");
-  EXPECT_THROW(read_triangle_solid(file("deep.off", deep)), InputError);
+  EXPECT_THROW(read_triangle_solid(write("deep.off", deep)), InputError);
 }
 
 TEST_F(Files, UnwritablePathIsNamed) {
@@ -187,9 +172,9 @@ TEST_F(Files, UnwritablePathIsNamed) {
 TEST_F(Files, SeveralSolidsInOneFile) {
   // Two tetrahedra, one turned on: OFF by vertices of their own, STL as a soup of triangles.
   const std::string off =
-      file("two.off",
-           "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 0 0\n7 0 0\n5 2 0\n5 0 2\n"
-           "3 0 2 1\n3 4 6 5\n3 0 1 3\n3 4 5 7\n3 1 2 3\n3 5 6 7\n3 2 0 3\n3 6 4 7\n");
+      write("two.off",
+            "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 0 0\n7 0 0\n5 2 0\n5 0 2\n"
+            "3 0 2 1\n3 4 6 5\n3 0 1 3\n3 4 5 7\n3 1 2 3\n3 5 6 7\n3 2 0 3\n3 6 4 7\n");
   const std::vector<Polyhedron> solids = read_solids(off, {0.001, false});
   ASSERT_EQ(solids.size(), 2u);
   EXPECT_NEAR(mass_properties(solids[0]).volume, 1e-9 / 6, 1e-21);
@@ -206,17 +191,17 @@ TEST_F(Files, SeveralSolidsInOneFile) {
                std::to_string(corner[f[k]].y()) + " " + std::to_string(corner[f[k]].z()) + "\n";
       stl += "endloop\nendfacet\n";
     }
-  EXPECT_EQ(read_solids(file("two.stl", stl + "endsolid a\n")).size(), 2u);
+  EXPECT_EQ(read_solids(write("two.stl", stl + "endsolid a\n")).size(), 2u);
 }
 
 TEST_F(Files, ClumpsFromCsv) {
   const auto spheres =
-      read_clump(file("c.csv", "x,y,z,r\n1,2,3,4\n\n -1 , 0.5 ,0, 2e-1\r\n"), 1e-3);
+      read_clump(write("c.csv", "x,y,z,r\n1,2,3,4\n\n -1 , 0.5 ,0, 2e-1\r\n"), 1e-3);
   ASSERT_EQ(spheres.size(), 2u);
   EXPECT_NEAR(spheres[0].radius, 4e-3, 1e-18);
   EXPECT_NEAR(spheres[1].centre.y(), 0.5e-3, 1e-18);
   const auto bad = [&](const std::string& text, const std::string& part) {
-    const std::string path = file("bad.csv", text);
+    const std::string path = write("bad.csv", text);
     try {
       read_clump(path);
       ADD_FAILURE() << text;

@@ -11,21 +11,10 @@
 #include "dem/grain/library.h"
 #include "dem/grain/parts.h"
 #include "dem/grain/random.h"
+#include "tests/scratch_folder.h"
 
 namespace trackbed::dem {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("trackbed_packing_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return (path / name).string();
-  }
-};
 
 PackedGrains sample() {
   PackedGrains g;
@@ -42,14 +31,14 @@ PackedGrains sample() {
   return g;
 }
 
-std::string write_csv(const Folder& folder, const PackedGrains& g) {
+std::string write_csv(const ScratchFolder& folder, const PackedGrains& g) {
   const DistinctShapes d = distinct_shapes(g);
-  fs::create_directories(folder.path / "p_shapes");
+  std::filesystem::create_directories(folder.file("p_shapes"));
   for (std::size_t k = 0; k < d.first_of.size(); ++k) {
     const ShapeFile shape = shape_file(g.shape[d.first_of[k]]);
-    folder.file("p_shapes/" + std::to_string(k) + shape.ending, shape.text);
+    folder.write("p_shapes/" + std::to_string(k) + shape.ending, shape.text);
   }
-  return folder.file("p.csv", packing_csv_text(g, d.shape_of));
+  return folder.write("p.csv", packing_csv_text(g, d.shape_of));
 }
 
 // Corners in the world of each grain, whatever frame it is kept in: every one of `a` is one of `b`.
@@ -78,7 +67,7 @@ void expect_same(const PackedGrains& a, const PackedGrains& b) {
 }
 
 TEST(PackingFile, csv_and_back) {
-  const Folder folder;
+  const ScratchFolder folder;
   const PackedGrains g = sample();
   EXPECT_EQ(distinct_shapes(g).first_of.size(), 30u);
   const std::string file = write_csv(folder, g);
@@ -90,18 +79,18 @@ TEST(PackingFile, csv_and_back) {
 }
 
 TEST(PackingFile, off_and_back) {
-  const Folder folder;
+  const ScratchFolder folder;
   const PackedGrains g = sample();
-  expect_same(g, read_packing(folder.file("p.off", packing_off_text(g))));
+  expect_same(g, read_packing(folder.write("p.off", packing_off_text(g))));
 }
 
 // Cubes face on face have corners in one place and still are eight.
 TEST(PackingFile, grains_that_touch_are_told_apart) {
-  const Folder folder;
+  const ScratchFolder folder;
   PackedGrains g;
   const GrainShape cube = make_grain_shape(make_box({.1, .1, .1}));
   for (int i = 0; i < 8; ++i) g.add(cube, .1 * Vec3(i % 2, i / 2 % 2, i / 4), cube.turn);
-  expect_same(g, read_packing(folder.file("p.off", packing_off_text(g))));
+  expect_same(g, read_packing(folder.write("p.off", packing_off_text(g))));
 }
 
 TEST(PackingFile, vtu_holds_every_corner_and_face_once) {
@@ -145,7 +134,7 @@ std::vector<Vec3> core_points(const PackedGrains& g, int i, int part) {
 }
 
 TEST(PackingFile, spheres_clumps_and_dilated_grains_come_back_from_csv) {
-  const Folder folder;
+  const ScratchFolder folder;
   const PackedGrains g = rounded_sample();
   EXPECT_EQ(distinct_shapes(g).first_of.size(), 6u);
   const PackedGrains back = read_packing(write_csv(folder, g));
@@ -171,7 +160,7 @@ TEST(PackingFile, spheres_clumps_and_dilated_grains_come_back_from_csv) {
 }
 
 TEST(PackingFile, grains_of_several_pieces_come_back_from_csv) {
-  const Folder folder;
+  const ScratchFolder folder;
   const auto moved = [](Polyhedron p, const Vec3& by) {
     for (Vec3& v : p.vertices) v += by;
     return p;
@@ -206,14 +195,14 @@ TEST(PackingFile, grains_of_several_pieces_come_back_from_csv) {
 }
 
 TEST(PackingFile, outlines_of_round_grains_have_their_volume) {
-  const Folder folder;
+  const ScratchFolder folder;
   const PackedGrains g = rounded_sample();
   EXPECT_NE(packing_vtu_text(g).find("NumberOfCells=\"20\""), std::string::npos);  // clumps: three
   EXPECT_THROW(packing_off_text(g), InputError);
   PackedGrains whole;
   for (int i = 0; i < g.size(); ++i)
     if (g.shape[i].parts.size() < 2) whole.add(g.shape[i], g.centre[i], g.turn[i]);
-  const PackedGrains back = read_packing(folder.file("p.off", packing_off_text(whole)));
+  const PackedGrains back = read_packing(folder.write("p.off", packing_off_text(whole)));
   ASSERT_EQ(back.size(), 8);
   for (int i = 0; i < back.size(); ++i) {
     EXPECT_NEAR(back.shape[i].volume / whole.shape[i].volume, 1, 1e-4);
@@ -231,13 +220,13 @@ std::string complaint(const std::string& file) {
 }
 
 TEST(PackingFile, malformed_files_are_named) {
-  const Folder folder;
+  const ScratchFolder folder;
   const std::string good = write_csv(folder, sample());
   EXPECT_EQ(complaint(good), "");
   std::ifstream in(good);
   std::string header, first;
   std::getline(in, header), std::getline(in, first);
-  const auto csv = [&](const std::string& text) { return folder.file("bad.csv", text); };
+  const auto csv = [&](const std::string& text) { return folder.write("bad.csv", text); };
   EXPECT_NE(complaint(csv("grain,shape\n0,0\n")).find("column 'x_m'"), std::string::npos);
   EXPECT_NE(complaint(csv(header + "\n")).find("no grains"), std::string::npos);
   EXPECT_NE(complaint(csv(header + "\n0,0,nan,0,0,1,0,0,0,0,0\n")).find("line 2: x_m"),
@@ -254,14 +243,13 @@ TEST(PackingFile, malformed_files_are_named) {
   EXPECT_NE(kind("1,dilated,0").find("radius_m"), std::string::npos);
   EXPECT_NE(kind("0,spheres,0").find("sieve_m"), std::string::npos);
   EXPECT_NE(kind("1,spheres,0").find("bad_shapes/0.csv"), std::string::npos);
-  EXPECT_NE(complaint((folder.path / "none.csv").string()).find("cannot be opened"),
-            std::string::npos);
-  EXPECT_NE(complaint(folder.file("p.txt", "x")).find("unknown kind"), std::string::npos);
+  EXPECT_NE(complaint(folder.file("none.csv")).find("cannot be opened"), std::string::npos);
+  EXPECT_NE(complaint(folder.write("p.txt", "x")).find("unknown kind"), std::string::npos);
   // A face is missing from the second of two tetrahedra.
   const std::string tetrahedron = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
   const std::string open = "OFF\n8 7 0\n" + tetrahedron + tetrahedron +
                            "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n";
-  const std::string text = complaint(folder.file("open.off", open));
+  const std::string text = complaint(folder.write("open.off", open));
   EXPECT_NE(text.find("open.off: solid 2"), std::string::npos) << text;
   EXPECT_NE(text.find("open"), std::string::npos);
 }

@@ -1,9 +1,7 @@
 // The whole state of a world: to a file and back, and compared bit by bit with another's.
 #pragma once
-#include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
 #include <string>
 
 #include "coupling/checkpoint.h"
@@ -47,11 +45,6 @@ inline std::string differing(World& a, World& b, const dem::Vec3& gravity) {
   compare("ledger",
           closure(a.start, stores(a, gravity), f) == closure(b.start, stores(b, gravity), g));
   return names;
-}
-
-inline std::string scratch_file(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / (name + std::to_string(::getpid()) + ".h5"))
-      .string();
 }
 
 inline void save(World& w, const std::string& path) {

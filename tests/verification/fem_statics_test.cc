@@ -10,14 +10,16 @@
 #include "known/bent_cantilever.h"
 #include "known/half_space.h"
 #include "known/thick_cylinder.h"
+#include "tests/scratch_folder.h"
 
 using namespace trackbed::fem;
+using trackbed::ScratchFolder;
 
 namespace {
 
 // A block of 2x2x2 cells with its inner node and others moved: no cell is a parallelepiped.
-std::string distorted_mesh() {
-  const std::string file = testing::TempDir() + "fem_distorted.msh";
+std::string distorted_mesh(const ScratchFolder& folder) {
+  const std::string file = folder.file("distorted.msh");
   std::ofstream out(file);
   const auto id = [](int i, int j, int k) { return 1 + i + 3 * (j + 3 * k); };
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n6\n2 1 \"x_min\"\n2 2 \"x_max\"\n"
@@ -83,8 +85,9 @@ INSTANTIATE_TEST_SUITE_P(Elements, AllElements,
 
 // Uniaxial tension of a distorted mesh: linear displacement at every node, to round-off.
 TEST_P(AllElements, PatchTest) {
+  const ScratchFolder folder;
   auto p = body();
-  p.mesh.file = distorted_mesh();
+  p.mesh.file = distorted_mesh(folder);
   p.materials = {{"steel", 200e9, 0.3, 7800}};
   p.supports = {
       {"x_min", Support::roller}, {"y_min", Support::roller}, {"bottom", Support::roller}};
@@ -107,8 +110,9 @@ TEST_P(AllElements, PatchTest) {
 }
 
 TEST_P(AllElements, SixZeroModes) {
+  const ScratchFolder folder;
   auto p = body();
-  p.mesh.file = distorted_mesh();
+  p.mesh.file = distorted_mesh(folder);
   p.materials = {{"steel", 200e9, 0.3, 7800}};
   const auto f = ElasticBody(p).frequencies(7);
   for (int i = 0; i < 6; ++i) EXPECT_LT(f[i], 1e-4 * f[6]) << i;
@@ -170,8 +174,7 @@ TEST(Bending, ErrorFallsByTheOrderOfTheElement) {
 
 TEST(NearlyIncompressible, ThickCylinderDoesNotLock) {
   const auto ratio = [](int order, Element element, int along, int around) {
-    return known::cylinder_ratio(testing::TempDir() + "fem_cylinder.msh", order, element, along,
-                                 around);
+    return known::cylinder_ratio(order, element, along, around);
   };
   EXPECT_GE(ratio(1, Element::b_bar, 10, 16), 0.98);
   EXPECT_GE(ratio(1, Element::incompatible, 10, 16), 0.98);

@@ -60,8 +60,7 @@ void write(const std::string& folder) {
   };
   add(motion_ladders());
   add(grain_ladders());
-  add(element_ladders(folder));
-  std::filesystem::remove(folder + "/cylinder.msh");
+  add(element_ladders());
   add(body_ladders());
   add(exchange_ladders());
 }

@@ -41,10 +41,9 @@ double seconds_of(F&& call) {
   return elapsed / calls;
 }
 
-std::vector<Ladder> motion_ladders();  ///< time step: impact, free rotation
-std::vector<Ladder> grain_ladders();   ///< sieve methods, slices, spheres, cells
-std::vector<Ladder> element_ladders(
-    const std::string& scratch);         ///< h and p, locking in bending and in volume
+std::vector<Ladder> motion_ladders();    ///< time step: impact, free rotation
+std::vector<Ladder> grain_ladders();     ///< sieve methods, slices, spheres, cells
+std::vector<Ladder> element_ladders();   ///< h and p, locking in bending and in volume
 std::vector<Ladder> body_ladders();      ///< reduction, reflection, size of the domain
 std::vector<Ladder> exchange_ladders();  ///< schedules, sub-cycling
 

@@ -2,6 +2,7 @@
 // number of threads, run and run again.
 #include "coupling_scene.h"
 #include "grain_scene.h"
+#include "tests/scratch_folder.h"
 #include "world_state.h"
 
 namespace trackbed::hard {
@@ -49,7 +50,8 @@ using Make = World (*)(const Setting&, dem::StepContext&);
 // Runs until something touches, saves, goes on; the other goes on from the file. 1: bits differ.
 template <Make make>
 Measured restart(const Setting& set) {
-  const std::string path = scratch_file("hard_cases_restart");
+  const ScratchFolder folder;
+  const std::string path = folder.file("checkpoint.h5");
   dem::StepContext c;
   World w = make(set, c);
   for (int k = 0; k < 20000 && count_contacts(w) == 0; ++k) run(w, c, 1);
@@ -59,7 +61,6 @@ Measured restart(const Setting& set) {
   run(w, c, 60);
   World again = make(set, c);
   load(again, path);
-  std::filesystem::remove(path);
   run(again, c, 60);
   const std::string names = differing(w, again, kNoGravity);
   if (!names.empty()) std::fprintf(stderr, "restart: %s\n", names.c_str());

@@ -1,8 +1,5 @@
 // Structures alone: nearly incompressible soil, no load and no support, resonance, cells from far
 // coarser to far finer than what presses on them.
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "base/error.h"
 #include "coupling_scene.h"
@@ -17,12 +14,7 @@ using fem::Element;
 using fem::Vec;
 
 fem::known::Cylinder cylinder(Element element, int cells) {
-  const std::string file = (std::filesystem::temp_directory_path() /
-                            ("hard_cases_cylinder" + std::to_string(::getpid()) + ".msh"))
-                               .string();
-  const auto c = fem::known::thick_cylinder(file, 1, element, cells, 2 * cells);
-  std::filesystem::remove(file);
-  return c;
+  return fem::known::thick_cylinder(1, element, cells, 2 * cells);
 }
 
 Measured locking(const Setting&) {

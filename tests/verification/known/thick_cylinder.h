@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fem/elastic_body.h"
+#include "tests/scratch_folder.h"
 
 namespace trackbed::fem::known {
 
@@ -56,10 +57,10 @@ struct Cylinder {
 };
 
 /// Writes its mesh into `file`.
-inline Cylinder thick_cylinder(const std::string& file, int order, Element element, int along,
-                               int around) {
+inline Cylinder thick_cylinder(int order, Element element, int along, int around) {
+  const ScratchFolder folder;
   ElasticBodyParameters p;
-  p.mesh.file = cylinder_mesh(file, along, around);
+  p.mesh.file = cylinder_mesh(folder.file("cylinder.msh"), along, around);
   p.materials = {{"soil", 1000, 0.4999, 1}};
   p.order = order;
   p.element = element;
@@ -122,9 +123,8 @@ inline Cylinder thick_cylinder(const std::string& file, int order, Element eleme
   return {work / force / 5.062275e-3, most};
 }
 
-inline double cylinder_ratio(const std::string& file, int order, Element element, int along,
-                             int around) {
-  return thick_cylinder(file, order, element, along, around).ratio;
+inline double cylinder_ratio(int order, Element element, int along, int around) {
+  return thick_cylinder(order, element, along, around).ratio;
 }
 
 }  // namespace trackbed::fem::known
