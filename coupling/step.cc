@@ -30,8 +30,11 @@ void check_finite(const World& w) {
 }
 
 void find_candidates(World& w, const dem::StepContext& c, bool anew) {
-  if (anew) w.candidates.rebuild(w.bodies, w.shapes, c, w.pairs);
-  const bool searched = anew || w.candidates.update(w.bodies, w.shapes, c, w.pairs);
+  const bool searched = anew || w.candidates.outdated(w.bodies, w.shapes, c);
+  if (searched) {
+    check_finite(w);
+    w.candidates.rebuild(w.bodies, w.shapes, c, w.pairs);
+  }
   const double reach = w.candidates.skin();
   for (Surface& s : w.surfaces)
     if (searched || s.contacts.node_travel - s.contacts.searched_at > 0.5 * reach)
@@ -96,7 +99,6 @@ void advance(World& w, const dem::StepContext& c, const Drive& drive) {
     }
     w.time += c.dt;
     ++w.step;
-    check_finite(w);
     drive(w, w.time);
     {
       Stopwatch watch(w.times.structures);

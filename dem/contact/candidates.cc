@@ -77,19 +77,18 @@ double default_skin(const Bodies& b, const ShapeTable& shapes) {
 
 bool Candidates::update(const Bodies& b, const ShapeTable& shapes, const StepContext& c,
                         Pairs& pairs) {
-  bool again = static_cast<int>(state_.travel.size()) != b.size();
-  if (!again) again = !(add_travel(b, shapes, c) <= state_.skin / 2);
+  const bool again = outdated(b, shapes, c);
   if (again) rebuild(b, shapes, c, pairs);
   return again;
 }
 
-double Candidates::add_travel(const Bodies& b, const ShapeTable& shapes, const StepContext& c) {
+bool Candidates::outdated(const Bodies& b, const ShapeTable& shapes, const StepContext& c) {
+  if (static_cast<int>(state_.travel.size()) != b.size()) return true;
   if (static_cast<int>(radius_.size()) != b.size()) find_radii(b, shapes);
-  double most = 0;
   const int n = b.size();
   const int threads = c.threads_for(n);
-#pragma omp parallel for schedule(static) reduction(max \
-                                                    : most) num_threads(threads) if (threads > 1)
+  bool far = false;
+#pragma omp parallel for schedule(static) reduction(|| : far) num_threads(threads) if (threads > 1)
   for (int row = 0; row < n; row += 8) {
     const Eightfold e = Eightfold::row(row, std::min(8, n - row));
     const Eight step = sqrt(squared_norm(read(b.v.data(), e))),
@@ -97,9 +96,10 @@ double Candidates::add_travel(const Bodies& b, const ShapeTable& shapes, const S
     const Eight travel =
         read(state_.travel.data(), e) + c.dt * step + read(radius_.data(), e) * turn;
     write(state_.travel.data(), e, travel);
-    most = std::max(most, largest(travel - read(state_.travel_search.data(), e)));
+    const Eight since = travel - read(state_.travel_search.data(), e);
+    far = far || less_equal(since, state_.skin / 2) != 0xff;  // also what is no number
   }
-  return most;
+  return far;
 }
 
 void Candidates::find_radii(const Bodies& b, const ShapeTable& shapes) {

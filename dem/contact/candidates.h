@@ -31,6 +31,10 @@ class Candidates {
   /// pairs that stay is kept, a touching pair always stays. True when the list was rebuilt.
   bool update(const Bodies&, const ShapeTable&, const StepContext&, Pairs&);
 
+  /// The first half of update: adds the step's travel; whether to search anew, as some body came
+  /// further since the last search than the skin allows, or to where is no finite place.
+  bool outdated(const Bodies&, const ShapeTable&, const StepContext&);
+
   /// Searches now; first call of a stage, or after bodies were added or moved by hand.
   void rebuild(const Bodies&, const ShapeTable&, const StepContext&, Pairs&);
 
@@ -50,8 +54,6 @@ class Candidates {
   struct Box {
     Vec3 low, high;
   };
-  /// Adds the step's travel; returns the most since the last search [m].
-  double add_travel(const Bodies&, const ShapeTable&, const StepContext&);
   void find_radii(const Bodies&, const ShapeTable&);
   void make_boxes(const Bodies&, const ShapeTable&, int threads);
   void search_grains(const Bodies&, const StepContext&);

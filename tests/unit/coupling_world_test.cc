@@ -187,15 +187,17 @@ TEST(Edit, settled_stack_stays_when_a_grain_comes) {
 }
 
 TEST(Step, stops_at_a_place_that_is_no_number) {
-  World w = bed(2, 1);
-  const dem::StepContext c = context(kStep, kGravity);
-  start(w, c);
-  w.bodies.v[2].x() = std::nan("");
-  try {
-    run(w, c, 1);
-    FAIL() << "went on";
-  } catch (const RunError& e) {
-    EXPECT_NE(std::string(e.what()).find("body 2"), std::string::npos) << e.what();
+  for (const auto what : {&dem::Bodies::v, &dem::Bodies::L}) {
+    World w = bed(2, 1);
+    const dem::StepContext c = context(kStep, kGravity);
+    start(w, c);
+    (w.bodies.*what)[2].x() = std::nan("");
+    try {
+      run(w, c, 1);
+      FAIL() << "went on";
+    } catch (const RunError& e) {
+      EXPECT_NE(std::string(e.what()).find("body 2"), std::string::npos) << e.what();
+    }
   }
 }
 
