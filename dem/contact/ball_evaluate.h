@@ -22,16 +22,13 @@ inline void find_overlaps(const Bodies& b, const ShapeTable& shapes, const StepC
   e.apart = read(b.x.data(), e.b) - read(b.x.data(), e.a);
   e.apart = e.apart + Eight3(image(e.apart.x, c.period.x()), image(e.apart.y, c.period.y()),
                              image(e.apart.z, c.period.z()));
-  const auto ball_a = [&](int k) -> const Ball& { return shapes.ball(pairs.ball_a[e.pair.at[k]]); };
-  const auto ball_b = [&](int k) -> const Ball& { return shapes.ball(pairs.ball_b[e.pair.at[k]]); };
-  const Eight ra = eight_of([&](int k) { return ball_a(k).radius; }),
-              rb = eight_of([&](int k) { return ball_b(k).radius; });
+  const Eight ra = read(pairs.radius_a.data(), e.pair), rb = read(pairs.radius_b.data(), e.pair);
   Eight3 x(0, 0, 0), way = e.apart;  // a's ball; from it to b's
   if (!centred) {
     Vec3 centre_a[8], centre_b[8];
     for (int k = 0; k < 8; ++k)
-      centre_a[k] = b.R[e.a.at[k]] * ball_a(k).centre,
-      centre_b[k] = b.R[e.b.at[k]] * ball_b(k).centre;
+      centre_a[k] = b.R[e.a.at[k]] * shapes.ball(pairs.ball_a[e.pair.at[k]]).centre,
+      centre_b[k] = b.R[e.b.at[k]] * shapes.ball(pairs.ball_b[e.pair.at[k]]).centre;
     x = load3(centre_a);
     way = e.apart + load3(centre_b) - x;
   }
@@ -72,12 +69,15 @@ void evaluate_balls(const Bodies& b, const ShapeTable& shapes, const PairMateria
   respond<Law, friction>(b, materials, c, e, pairs);
 }
 
-/// Pairs::ball_a, ball_b.
+/// Pairs::ball_a, ball_b, radius_a, radius_b.
 inline void find_balls(const Bodies& b, const ShapeTable& shapes, Pairs& pairs) {
-  pairs.ball_a.resize(pairs.size()), pairs.ball_b.resize(pairs.size());
+  for (auto* v : {&pairs.ball_a, &pairs.ball_b}) v->resize(pairs.size());
+  for (auto* v : {&pairs.radius_a, &pairs.radius_b}) v->resize(pairs.size());
   for (int p = pairs.begin(PairKind::balls); p < pairs.end(PairKind::points); ++p) {
     pairs.ball_a[p] = shapes.place(b.shape[pairs.a[p]], pairs.part_a[p]);
     pairs.ball_b[p] = shapes.place(b.shape[pairs.b[p]], pairs.part_b[p]);
+    pairs.radius_a[p] = shapes.ball(pairs.ball_a[p]).radius;
+    pairs.radius_b[p] = shapes.ball(pairs.ball_b[p]).radius;
   }
 }
 
@@ -87,32 +87,36 @@ inline void find_balls(const Bodies& b, const ShapeTable& shapes, Pairs& pairs) 
 inline constexpr int kAhead = 80;  // pairs
 
 [[gnu::always_inline]] inline void fetch_keys(const Pairs& pairs, int p) {
-  for (const auto* v : {&pairs.a, &pairs.b, &pairs.ball_a, &pairs.ball_b}) fetch_lines(&(*v)[p], 1);
+  for (const auto* v : {&pairs.a, &pairs.b, &pairs.ball_b}) fetch_lines(&(*v)[p], 1);
 }
 [[gnu::always_inline]] inline void fetch_balls(const Bodies& b, const ShapeTable& shapes,
+                                               const PairMaterials& materials, bool centred,
                                                const Pairs& pairs, int p) {
   for (const auto* v : {&pairs.arm_a, &pairs.arm_b, &pairs.friction, &pairs.force, &pairs.axis})
     fetch_lines(&(*v)[p], 3);
-  for (const auto* v : {&pairs.friction_stiffness, &pairs.viscous, &pairs.viscous_loss,
-                        &pairs.normal_force, &pairs.energy, &pairs.friction_energy,
-                        &pairs.friction_loss, &pairs.area, &pairs.depth, &pairs.stiffness})
+  for (const auto* v :
+       {&pairs.radius_a, &pairs.radius_b, &pairs.friction_stiffness, &pairs.viscous,
+        &pairs.viscous_loss, &pairs.normal_force, &pairs.energy, &pairs.friction_energy,
+        &pairs.friction_loss, &pairs.area, &pairs.depth, &pairs.stiffness})
     fetch_lines(&(*v)[p], 1);
   for (int k = p; k < p + 8; ++k) {
     const int j = pairs.b[k];
     fetch(b.x[j]), fetch(b.v[j]), fetch(b.turn[j]);
-    fetch_lines(&b.mass[j], 1), fetch_lines(&b.material[j], 1), fetch_lines(&b.freedom[j], 1);
-    fetch_lines(&shapes.ball(pairs.ball_b[k]), 1);
+    if (materials.has_damping()) fetch_lines(&b.mass[j], 1), fetch_lines(&b.freedom[j], 1);
+    if (materials.materials() > 1) fetch_lines(&b.material[j], 1);
+    if (!centred) fetch_lines(&b.R[j], 2), fetch_lines(&shapes.ball(pairs.ball_b[k]), 1);
   }
 }
 /// At row p of eight, for later ones before `end`. Where this one touches those most likely do;
 /// whether they do is not looked at, as another thread may be writing it. One that does not touch
 /// asks for what tells that later ones do not either.
 [[gnu::always_inline]] inline void fetch_ahead(const Bodies& b, const ShapeTable& shapes,
-                                               const std::vector<double>& travel,
+                                               const PairMaterials& materials,
+                                               const std::vector<double>& travel, bool centred,
                                                const Pairs& pairs, int p, int end) {
   if (p + 2 * kAhead + 8 > end) return;
   fetch_keys(pairs, p + 2 * kAhead);
-  if (pairs.touching[p]) return fetch_balls(b, shapes, pairs, p + kAhead);
+  if (pairs.touching[p]) return fetch_balls(b, shapes, materials, centred, pairs, p + kAhead);
   fetch_lines(&pairs.wake[p + kAhead], 1);
   for (int k = p + kAhead; k < p + kAhead + 8; ++k)
     fetch_lines(&travel[pairs.a[k]], 1), fetch_lines(&travel[pairs.b[k]], 1);
@@ -138,7 +142,7 @@ void evaluate_ball_pairs(const Bodies& b, const ShapeTable& shapes, const PairMa
     Eightfold awake;
     const int first = begin + s * stretch, last = std::min(end, first + stretch);
     for (int row = first; row < last; row += 8) {
-      if (many) fetch_ahead(b, shapes, travel, pairs, row, end);
+      if (many) fetch_ahead(b, shapes, materials, travel, centred, pairs, row, end);
       if (row + 8 <= last && all_are(&pairs.touching[row], 1)) {
         evaluate(Eightfold::row(row, 8));
         continue;

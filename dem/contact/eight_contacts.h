@@ -25,21 +25,22 @@ struct EightContacts {
 };
 
 struct EightConstants {
-  Eight mass;  ///< BallContactOf::mass [kg]
+  Eight mass;  ///< BallContactOf::mass [kg]; any where nothing is damped
   BallMaterialOf<Eight> material;
 };
 
-inline EightConstants constants_of(const Bodies& b, const PairMaterials& materials,
-                                   const EightContacts& e) {
+inline Eight contact_masses(const Bodies& b, const EightContacts& e) {
   unsigned held = 0;  // highest bit: some freedom is kFixed, zero
   for (int k = 0; k < 8; ++k) held |= (b.freedom[e.a.at[k]] - 1u) | (b.freedom[e.b.at[k]] - 1u);
+  if (held >> 31) return eight_of([&](int k) { return contact_mass(b, e.a.at[k], e.b.at[k]); });
+  const Eight of_a = read(b.mass.data(), e.a), of_b = read(b.mass.data(), e.b);
+  return of_a * of_b / (of_a + of_b);
+}
+
+inline EightConstants constants_of(const Bodies& b, const PairMaterials& materials,
+                                   const EightContacts& e) {
   EightConstants c;
-  if (held >> 31) {
-    c.mass = eight_of([&](int k) { return contact_mass(b, e.a.at[k], e.b.at[k]); });
-  } else {
-    const Eight a = read(b.mass.data(), e.a), of_b = read(b.mass.data(), e.b);
-    c.mass = a * of_b / (a + of_b);
-  }
+  c.mass = materials.has_damping() ? contact_masses(b, e) : 1;
   const PairMaterial* of[8] = {&materials(b.material[e.a.at[0]], b.material[e.b.at[0]])};
   bool same = true;
   if (materials.materials() > 1)

@@ -1,5 +1,6 @@
 #include "dem/contact/pair_forces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,7 @@ void PairMaterials::set(int i, int j, const PairMaterial& m) {
     throw InputError("pair of materials " + std::to_string(i) + ", " + std::to_string(j) +
                      ": modulus must be positive, friction and tangential ratio not negative");
   table_.at(i * n_ + j) = table_.at(j * n_ + i) = m;
+  damped_ = std::any_of(table_.begin(), table_.end(), [](auto& of) { return of.damping > 0; });
 }
 
 bool PairMaterials::has_friction() const {

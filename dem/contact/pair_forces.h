@@ -23,9 +23,11 @@ class PairMaterials {
   const PairMaterial& operator()(int i, int j) const { return table_[i * n_ + j]; }
   int materials() const { return n_; }
   bool has_friction() const;
+  bool has_damping() const { return damped_; }  ///< in contacts, of some pair
 
  private:
   int n_ = 0;
+  bool damped_ = false;
   std::vector<PairMaterial> table_;
 };
 

@@ -35,7 +35,7 @@ void Pairs::keep_resistance() {
 }
 
 void Pairs::index_bodies(int bodies) {
-  ball_a.clear(), ball_b.clear();
+  ball_a.clear();  // and what else is found with them
   kind_first.fill(0);
   for (const std::uint8_t k : kind) ++kind_first[k + 1];
   std::partial_sum(kind_first.begin(), kind_first.end(), kind_first.begin());

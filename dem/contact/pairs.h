@@ -77,8 +77,9 @@ struct Pairs {
 
   std::vector<OverlapWorkspace> workspaces;  ///< scratch, one a thread
 
-  // Of pairs of balls: their places in ShapeTable::ball. Follow from the bodies' shapes and the
-  // parts; found by the first evaluation after index_bodies.
+  // Of pairs of balls: their radii [m] and places in ShapeTable::ball. Follow from the bodies'
+  // shapes and the parts; found by the first evaluation after index_bodies.
+  std::vector<double> radius_a, radius_b;
   std::vector<int> ball_a, ball_b;
 
   std::array<int, kPairKinds + 1> kind_first{};  ///< range of each kind (index_bodies)
