@@ -108,6 +108,28 @@ TEST(StoredEnergy, FlatOverlapKeepsItsDigits) {  // depth/width 1e-9, grain size
   }
 }
 
+// Of two lumps far apart, as where an edge lies on two waves, that stand across the axes at any angle:
+// the smallest of the moments to what rounding leaves of it, eps L^2/T^2.
+TEST(StoredEnergy, NeedlesAcrossTheAxesKeepTheirDigits) {
+  const Vec3 size(1, 1e-4, 5e-5);
+  OverlapShape s;
+  s.volume = 1e-9, s.area = Vec3(0, 0, 1e-5);
+  s.second_moment = s.volume / 12 * size.cwiseAbs2().asDiagonal().toDenseMatrix();
+  const double upright = stored_energy_response<2>(s, 1).energy;
+  const double exact =
+      kShao / 2 * std::sqrt(1e-9) * std::pow(std::pow(1e-4, -4) + std::pow(5e-5, -4), -3. / 8);
+  EXPECT_NEAR(upright, exact, 1e-9 * exact);
+  Random random(4);
+  for (const double tilt : {0., 1e-4, .0074, .3, 2.})
+    for (int k = 0; k < 50; ++k) {
+      const Mat3 R =
+          rotation(tilt * random.direction()) * rotation(random.uniform(0, 6) * Vec3::UnitZ());
+      OverlapShape turned = s;
+      turned.second_moment = R * s.second_moment * R.transpose();
+      EXPECT_NEAR(stored_energy_response<2>(turned, 1).energy, exact, 3e-6 * exact) << tilt;
+    }
+}
+
 TEST(StoredEnergy, SmoothThroughTiltZero) {
   // A unit cube in a wide face at depth d: torque is linear in the tilt, force does not jump.
   const double d = 1e-4;

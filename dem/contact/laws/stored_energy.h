@@ -48,7 +48,11 @@ NormalResponse stored_energy_response(const OverlapShape& s, double modulus) {
   const double ix = 1 / C(0, 0), iy = 1 / C(1, 1), iz = 1 / C(2, 2);
   const double ux = C(1, 2) * iy, uy = C(0, 2) * iz, uz = C(0, 1) * ix;
   const double rx = ux * C(1, 2) * iz, ry = uy * C(0, 2) * ix, rz = uz * C(0, 1) * iy;  // R_ij^2
-  const double det = (1 - rx) - ry - rz + 2 * ux * uy * uz;
+  double det = (1 - rx) - ry - rz + 2 * ux * uy * uz;
+  if (det < 1e-10) {  // a needle across the axes: by elimination its least thickness keeps its digits
+    const double left = C(1, 2) - C(0, 1) * C(0, 2) * ix;
+    det = (1 - ry) * (1 - rz) - left * iy * left * iz;
+  }
   if (!(det > 0)) return r;
   double xx = (1 - rx) * ix, yy = (1 - ry) * iy, zz = (1 - rz) * iz;
   double xy = (uy * C(1, 2) - C(0, 1)) * ix * iy, xz = (ux * C(0, 1) - C(0, 2)) * ix * iz;
