@@ -100,7 +100,8 @@ SurfaceBalls core_on_surface(const PartView& part, const Vec3& x, const Mat3& R,
   // The most promising first: mostly the one of the last step, and no other is as deep.
   while (true) {
     double least = 0;
-    if (best.overlap > 0) least = aside > 0 ? -aside * thickness(part, best) : best.overlap;
+    if (best.overlap > 0)  // flat parts may not reach the surface: no thickness
+      least = aside > 0 ? std::min(best.overlap, -aside * thickness(part, best)) : best.overlap;
     NearTriangle* next = nullptr;
     for (NearTriangle& t : near)
       if (!t.exact && t.overlap > least) least = t.overlap, next = &t;

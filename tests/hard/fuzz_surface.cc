@@ -6,13 +6,16 @@
 //   - by force, torque and nodal forces as gradients of the stored energy;
 //   - on flat ones, however they are meshed, wherever they end in a skirt or at a seam: force, torque
 //     and energy are those on one quad and those on a held block (the kernels of pairs), and of plain
-//     grains those of the exact overlap.
+//     grains those of the exact overlap;
+//   - dragged along with friction and damping, the surface in motion too: by balance, Coulomb's bound
+//     and, on flat surfaces, the same drag over one quad.
 // The law shao2017 stores no energy and has no gradient; on bent surfaces it is judged by balance
 // alone. An offender on a flat surface is kept as a scene, DIR/*.prm, with the block in place of the
 // surface, which `trackbed run` replays; one on a bent surface is but named. Exit 1 if there is one.
 #include <cmath>
 #include <cstdio>
 
+#include "tests/hard/fuzz_drag.h"
 #include "tests/hard/fuzz_laid.h"
 #include "tests/hard/fuzz_order.h"
 #include "tests/hard/fuzz_section.h"
@@ -21,14 +24,16 @@
 namespace trackbed::dem::test {
 namespace {
 
-constexpr double kBalance = 1e-13;   // of the sum of the nodal forces' sizes
-constexpr double kSame = 1e-9;       // of force, torque and energy
-constexpr double kRounding = 1e-13;  // of places, [m]: where planes meet at small angles
-constexpr double kMoments = 1e-15;   // of second moments, of the largest
-constexpr double kDeeper = 1e-13;    // how much deeper other balls may be, [m]
-constexpr double kNormals = 3e-8;    // sine between normals whose cosines round to the same
-constexpr double kStep = 1e-3;       // of differences, of the depth
-constexpr double kGradient = 1e-3;   // of the force
+constexpr double kBalance = 1e-13;         // of the sum of the nodal forces' sizes
+constexpr double kDraggedBalance = 1e-11;  // of long thin overlaps friction's shares round
+constexpr double kSame = 1e-9;             // of force, torque and energy
+constexpr double kRounding = 2e-13;        // of places, [m]: where planes meet at small angles
+constexpr double kMoments = 2e-15;         // of second moments, of the largest
+constexpr double kDeeper = 1e-13;          // how much deeper other balls may be, [m]
+constexpr double kNormals = 3e-8;          // sine between normals whose cosines round to the same
+constexpr double kDragged = 4;             // times as unsure is what has a past
+constexpr double kStep = 1e-3;             // of differences, of the depth
+constexpr double kGradient = 1e-3;         // of the force
 
 Pose block_under(const Case& c, double edge) {
   const Ground& g = c.ground;
@@ -51,12 +56,12 @@ Answer on_block(const Case& c) {
   return {s.bodies.force[0], s.bodies.torque[0], s.now().normal};
 }
 
-Answer on_one_quad(const Case& c) {
+Ground one_quad(const Case& c) {
   Ground g = c.ground;
   g.period.setZero(), g.skirt = 0;
   g.mesh = flat_mesh(1, 1, -16, 16, -16, 16);
   for (Vec3& p : g.mesh.nodes) p = g.R * p + g.x;
-  return OnGround(c, g).answer(c.x, c.R);
+  return g;
 }
 
 // How well an answer is known, relative; the torque by the force and the grain's radius.
@@ -85,6 +90,11 @@ struct Unsure {
     if (pair && !c.stores) force += kNormals * (1 + size / c.depth);
     force += all, torque += all + (pair && !c.stores ? force : 0), energy += all;
   }
+
+  friend Unsure operator*(double times, Unsure u) {
+    u.force *= times, u.torque *= times, u.energy *= times;
+    return u;
+  }
 };
 
 Fault compare(const Case& c, const Answer& a, const Answer& b, const Unsure& u, const char* what) {
@@ -95,7 +105,7 @@ Fault compare(const Case& c, const Answer& a, const Answer& b, const Unsure& u, 
   return same ? Fault{} : Fault{what, std::max({force, torque, energy})};
 }
 
-Fault judge_balance(const PatchScene& s) {
+Fault judge_balance(const PatchScene& s, double tolerance = kBalance) {
   Vec3 sum = s.bodies.force[0], moment = s.bodies.torque[0];
   double size = 0, arms = 0;
   for (const auto& nodal : s.contacts.nodal)
@@ -104,8 +114,9 @@ Fault judge_balance(const PatchScene& s) {
       moment += arm.cross(f), size += f.norm(), arms += arm.norm() * f.norm();
     }
   sum += s.nodal_sum();
-  if (!(sum.norm() < kBalance * size)) return {"sum of the nodal forces", sum.norm() / size};
-  if (s.context.period == Vec3::Zero() && !(moment.norm() < kBalance * arms))
+  if (size == 0) return {};  // it does not touch
+  if (!(sum.norm() < tolerance * size)) return {"sum of the nodal forces", sum.norm() / size};
+  if (s.context.period == Vec3::Zero() && !(moment.norm() < tolerance * arms))
     return {"moment of the nodal forces", moment.norm() / arms};
   return {};
 }
@@ -113,7 +124,9 @@ Fault judge_balance(const PatchScene& s) {
 Fault judge_flat(const Case& c, const OnGround& s, const OnLevel& level, const Answer& found) {
   const Section section(cross_section(level));
   const Unsure unsure(c, s.part(), section, false);
-  if (const Fault f = compare(c, found, on_one_quad(c), unsure, "against one quad"); f.what)
+  if (const Fault f =
+          compare(c, found, OnGround(c, one_quad(c)).answer(c.x, c.R), unsure, "against one quad");
+      f.what)
     return f;
   const Unsure of_pair(c, s.part(), section, true);
   if (const Fault f = compare(c, found, on_block(c), of_pair, "against a held block"); f.what)
@@ -172,6 +185,35 @@ Fault judge_gradient(const Case& c, OnGround& s, const Answer& found, double uns
   return {};
 }
 
+// With friction and damping, step by step: balance, Coulomb's bound and, on flat surfaces, what one
+// quad answers to the same drag.
+Fault judge_drag(const Case& c, const Drag& d) {
+  Dragged s(c, c.ground, d), plain(c, c.ground.bent ? c.ground : one_quad(c), d);
+  const double start = s.bodies.force[0].norm();
+  Random jolts(1);
+  Vec3 level = c.ground.x;
+  for (int k = 0; k < Drag::kSteps; ++k) {
+    const Answer found = s.step(d, k, jolts);
+    if (const Fault f = judge_balance(s, kDraggedBalance); f.what) return f;
+    for (int i = 0; i < s.contacts.size(); ++i) {
+      const double most = d.friction * s.contacts.normal_force[i].norm(),
+                   size = s.contacts.friction[i].norm();
+      if (!(size <= most * (1 + 1e-12))) return {"friction beyond Coulomb's", size / most - 1};
+    }
+    if (c.ground.bent) continue;
+    const Answer same = plain.step(d, k, jolts);
+    if (!(same.force.norm() > .01 * start)) continue;  // it comes off: less deep than it was laid
+    level += d.ground[k];
+    const Mat3 down = c.ground.R.transpose();
+    const OnLevel there{s.part(), down * s.bodies.R[0], down * (s.bodies.x[0] - level)};
+    const Unsure unsure(c, s.part(), Section(cross_section(there)), false);
+    if (const Fault f = compare(c, found, same, kDragged * unsure, "dragged, against one quad");
+        f.what)
+      return f;
+  }
+  return {};
+}
+
 Fault judge(const Case& c) {
   OnGround s(c, c.ground);
   const Answer found = s.answer(c.x, c.R);
@@ -218,6 +260,7 @@ int fuzz(const FuzzOrder& order) {
     Fault fault;
     try {
       fault = judge(c);
+      if (!fault.what) fault = judge_drag(c, any_drag(random, c));
     } catch (const RunError&) {
       fault = {"refused as too deep", c.depth};
     }

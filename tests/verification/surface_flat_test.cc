@@ -176,6 +176,24 @@ TEST(FlatOnSurface, slides_over_element_edges_without_a_bump) {
   EXPECT_LT(most, 1e-10);
 }
 
+// A level plate so high that nothing but the bulge of its crown touches, by Hertz: the triangle under
+// the bulge is found wherever the plate goes, by steps however short.
+TEST(FlatOnSurface, bulge_alone_is_followed_over_the_mesh) {
+  const double r = .05;
+  FlatScene s(uneven_mesh(9, 9));
+  const GrainShape plate = dilated(make_box({.4, .4, .1}), r);
+  s.add_shape(plate, {-.6, -.5, 1}, plate.turn);
+  const double bulge = s.part().crown / 2 * (s.part().mean_square - .0025), depth = bulge / 5;
+  s.bodies.x[0].z() = .05 + r + bulge - depth;
+  s.bodies.freedom[0] = kFixed;
+  s.bodies.v[0] = {.5, .4, 0};
+  s.context.dt = 5e-4;
+  s.evaluate_afresh();
+  const double force = 4. / 3 * kE * std::sqrt(r) * std::pow(depth, 1.5);
+  for (int k = 0; k < 2000; ++k, s.step())
+    ASSERT_NEAR(s.bodies.force[0].z(), force, 1e-6 * force) << s.bodies.x[0].transpose();
+}
+
 // Over a right-angled edge, half of the face over the void: half of the area answers.
 TEST(FlatOnSurface, only_the_area_that_meets_counts) {
   const double r = .05, depth = 1e-4;
