@@ -9,7 +9,6 @@ namespace {
 constexpr int kMostRounds = 12;
 constexpr double kUphill = -1e-14;  // slopes above this are rounding
 constexpr double kSettled = 1e-14;  // of the distance; the next round would gain five digits more
-constexpr double kApart = 1e-6;     // cores nearer than this share of the radii: not from here
 
 Vec3 vertex(const ConvexView& v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 Vec3 normal(const ConvexView& v, int f) { return {v.nx[f], v.ny[f], v.nz[f]}; }
@@ -238,7 +237,7 @@ bool on_face(const PartView& own, const Mat3& R, const CoreFeature& on_own, cons
 // The feature of `own` has not more dimensions than that of `other`.
 bool again(const PartView& own, const Mat3& R, const CoreFeature& on_own, const PartView& other,
            const Mat3& S, const Vec3& apart, const CoreFeature& on_other, DeepestBalls& out) {
-  const double least = kApart * (own.radius + other.radius);
+  const double least = least_distance(own, other);
   if (on_own.dimension == 0)
     return from_vertex(own, R, on_own.index, other, S, apart, on_other, least, out);
   if (on_other.dimension == 1)

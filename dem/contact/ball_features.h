@@ -25,6 +25,11 @@ struct CoreFeature {
   static CoreFeature of(int code) { return {(code & 3) - 1, code >> 2 & 65535, code >> 18}; }
 };
 
+/// Cores nearer than this touch each other [m]: the direction from one to the other is lost.
+inline double least_distance(const PartView& a, const PartView& b) {
+  return 1e-6 * (a.radius + b.radius);
+}
+
 /// The one that the point of a search lies on.
 CoreFeature feature_of(const ConvexView&, const ClosestPoint&, const Vec3& point);
 

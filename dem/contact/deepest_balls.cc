@@ -108,19 +108,30 @@ Vec3 top(const ConvexView& v, const Vec3& n) {
   return best;
 }
 
-// Along the axis of least depth, once cores overlap, at `start` if the pair has touched before.
+// Nearest to p drawn to the centre by the crown, `distance` about p's from the core. Where that is
+// too large p may be drawn inside from outside: then nearest to p itself.
+ClosestPoint closest_drawn(const PartView& part, const Vec3& p, double distance) {
+  const double e = part.crown * distance;
+  const ClosestPoint c = closest_point(part.core, p / (1 + e));
+  return c.dimension == 3 && e > 0 ? closest_point(part.core, p) : c;
+}
+
+// Along the axis of least depth, once cores overlap; the contact point, half way between the balls'
+// surfaces, stays at `start` if the pair has touched before.
 DeepestBalls deep(const PartView& a, const Mat3& Ra, const PartView& b, const Pose& pose,
                   const Vec3& start, Vec3& axis) {
   const double gap = separating_axis(a.core, {Ra, Vec3::Zero()}, b.core, pose, axis);
   DeepestBalls d;
   d.n = axis.normalized();
-  Vec3 middle = start;
-  if (start == Vec3::Zero())
+  const bool fresh = start == Vec3::Zero();
+  Vec3 middle = start - (a.radius - b.radius) / 2 * d.n;  // of x and y
+  if (fresh)
     middle = (Ra * top(a.core, Ra.transpose() * d.n) + pose.x +
               pose.R * top(b.core, -(pose.R.transpose() * d.n))) /
              2;
   d.ra = radius_at(a, closest_point(a.core, Ra.transpose() * middle).point);
   d.rb = radius_at(b, closest_point(b.core, pose.R.transpose() * (middle - pose.x)).point);
+  if (!fresh) middle = start - (d.ra - d.rb) / 2 * d.n;
   d.x = middle - gap / 2 * d.n;
   d.y = middle + gap / 2 * d.n;
   d.overlap = d.ra + d.rb - gap;
@@ -170,21 +181,20 @@ DeepestBalls deepest_balls(const PartView& a, const Mat3& Ra, const PartView& b,
   const Mat3 R = Ra.transpose() * pose.R;
   const Vec3 centre = Ra.transpose() * pose.x;
   const double tolerance2 = 1e-24 * (a.core.radius * a.core.radius + a.radius * a.radius);
+  const double least = least_distance(a, b);
   const bool fresh = start == Vec3::Zero();
   Vec3 x = closest_point(a.core, fresh ? centre : Vec3(Ra.transpose() * start)).point, y;
   double distance = fresh ? 0 : a.radius + b.radius;  // about what it is in a contact
   ClosestPoint ca, cb;
   Vec3 was = Vec3::Constant(HUGE_VAL);
   for (int round = 0; round < kMostRounds; ++round) {
-    cb = closest_point(b.core, R.transpose() * (x - centre) / (1 + b.crown * distance));
-    if (cb.dimension == 3 && round == 0 && distance > 0)  // perhaps only by the guessed distance
-      cb = closest_point(b.core, R.transpose() * (x - centre));
+    cb = closest_drawn(b, R.transpose() * (x - centre), distance);
     if (cb.dimension == 3) return deep(a, Ra, b, pose, start, axis);
     y = centre + R * cb.point;
     const double before = distance;
     distance = (y - x).norm();
-    ca = closest_point(a.core, y / (1 + a.crown * distance));
-    if (ca.dimension == 3 || !(distance > 0)) return deep(a, Ra, b, pose, start, axis);
+    ca = closest_drawn(a, y, distance);
+    if (ca.dimension == 3 || !(distance > least)) return deep(a, Ra, b, pose, start, axis);
     x = ca.point;
     distance = (y - x).norm();
     if (round == 0) {
@@ -215,6 +225,7 @@ DeepestBalls deepest_balls(const PartView& a, const Mat3& Ra, const PartView& b,
     }
     was = x;
   }
+  if (!((y - x).norm() > least)) return deep(a, Ra, b, pose, start, axis);
   DeepestBalls d;
   d.x = Ra * x;
   d.y = Ra * y;

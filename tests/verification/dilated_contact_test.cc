@@ -244,6 +244,37 @@ TEST(DilatedContact, keeps_its_sense_when_cores_overlap) {
   }
 }
 
+// Led together until cores meet and apart again, in any pose: the overlap changes with the way, step
+// by step, but for a hundredth of the radius where another way out is the nearest, and what is left
+// at the end is as if nothing had been.
+TEST(DilatedContact, goes_on_evenly_where_cores_come_to_meet) {
+  Random random(9);
+  const double r = .05, step = 2e-4;
+  for (int k = 0; k < 200; ++k) {
+    Scene s = scene();
+    s.add(dilated(k % 2 ? make_box({1, .8, .6}) : random_hull(random, 12), r), 1, Vec3::Zero());
+    s.add(make_grain_shape(make_box({.9, .7, 1})), 1, Vec3::Zero());
+    for (int i : {0, 1}) place(s, i, Vec3::Zero(), random_rotation(random));
+    if (!bring_together(s, random, .6 * r)) continue;
+    const Vec3 start = s.bodies.x[1];
+    s.pairs = Pairs();
+    s.prepare();
+    const Vec3 way = -s.bodies.force[1].normalized();
+    const Vec3 force = s.bodies.force[1], torque = s.bodies.torque[1];
+    double last = s.pairs.depth[0], most = 0;
+    for (int n = 1; n <= 220; ++n) {
+      place(s, 1, start + (n <= 110 ? n : 220 - n) * step * way, s.bodies.R[1]);
+      s.prepare();
+      ASSERT_TRUE(s.bodies.force[1].allFinite()) << k << ", step " << n;
+      ASSERT_LT(std::abs(s.pairs.depth[0] - last), step + .01 * r) << k << ", step " << n;
+      last = s.pairs.depth[0], most = std::max(most, last);
+    }
+    EXPECT_GT(most, r) << k;
+    EXPECT_LT((s.bodies.force[1] - force).norm(), 1e-7 * force.norm()) << k;
+    EXPECT_LT((s.bodies.torque[1] - torque).norm(), 1e-7 * force.norm()) << k;
+  }
+}
+
 TEST(SphereOnPolyhedron, edges_and_corners_are_no_holes) {
   // Around a cube at constant distance from it the force has one size, whatever the feature.
   Scene s = scene();
