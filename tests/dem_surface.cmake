@@ -15,11 +15,3 @@ target_include_directories(surface_flat_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}
 add_executable(surface_benchmark ${CMAKE_CURRENT_SOURCE_DIR}/benchmarks/surface_benchmark.cc)
 target_link_libraries(surface_benchmark PRIVATE trackbed_dem)
 target_include_directories(surface_benchmark PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
-
-# Random grains on random surfaces, as fuzz_pairs (dem_contact.cmake).
-find_package(CGAL REQUIRED)
-add_executable(fuzz_surface ${CMAKE_CURRENT_SOURCE_DIR}/hard/fuzz_surface.cc)
-target_include_directories(fuzz_surface PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit)
-target_link_libraries(fuzz_surface PRIVATE trackbed_dem CGAL::CGAL)
-add_test(NAME hard/fuzz_surface COMMAND fuzz_surface --pairs 500 --seed 1)
-set_tests_properties(hard/fuzz_surface PROPERTIES LABELS hard TIMEOUT 120)

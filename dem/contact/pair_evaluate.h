@@ -76,11 +76,18 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
   } else {
     OverlapMoments moments;
     ContactFrame frame;
-    const auto overlaps = [&] {
-      frame = contact_frame(va, pa, vb, pb, axis);
+    const auto overlaps_in_frame = [&] {
       work.clear();
       moments = OverlapMoments();
       return overlap(va, pa, vb, pb, frame, work, moments);
+    };
+    const auto overlaps = [&] {
+      frame = contact_frame(va, pa, vb, pb, axis);
+      return overlaps_in_frame();
+    };
+    const auto overlaps_along_axis = [&] {  // not along the face's normal nearest to it
+      frame.axes = axes_along(axis);
+      return overlaps_in_frame();
     };
     const auto overlaps_again = [&] {
       frame = {pa.x + pairs.arm_a[p], axes_along(axis)};
@@ -92,7 +99,7 @@ void evaluate_pair(const Bodies& b, const ShapeTable& shapes, const PairMaterial
       if (gap > 0) sleep(travel, gap, pairs, p);
       if (gap > 0 || !overlaps()) return release(pairs, p);
     }
-    if (!normal_contact<Law>(moments, frame, work, material, overlaps, axis, contact))
+    if (!normal_contact<Law>(moments, frame, work, material, overlaps_along_axis, axis, contact))
       return release(pairs, p);
     feature = work.feature;
   }
