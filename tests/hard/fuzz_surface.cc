@@ -7,13 +7,15 @@
 //   - on flat ones, however they are meshed, wherever they end in a skirt or at a seam: force, torque
 //     and energy are those on one quad and those on a held block (the kernels of pairs), and of plain
 //     grains those of the exact overlap;
-//   - dragged along with friction and damping, the surface in motion too: by balance, Coulomb's bound
-//     and, on flat surfaces, the same drag over one quad.
+//   - dragged along with friction and damping, the surface in motion too: by balance, Coulomb's
+//     bound, the normal forces of contacts found afresh and, on flat surfaces, the same drag over one
+//     quad.
 // The law shao2017 stores no energy and has no gradient; on bent surfaces it is judged by balance
 // alone. An offender on a flat surface is kept as a scene, DIR/*.prm, with the block in place of the
 // surface, which `trackbed run` replays; one on a bent surface is but named. Exit 1 if there is one.
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "tests/hard/fuzz_drag.h"
 #include "tests/hard/fuzz_laid.h"
@@ -185,8 +187,24 @@ Fault judge_gradient(const Case& c, OnGround& s, const Answer& found, double uns
   return {};
 }
 
-// With friction and damping, step by step: balance, Coulomb's bound and, on flat surfaces, what one
-// quad answers to the same drag.
+// The springs of the contacts' normals are those of contacts without a past.
+Fault judge_normals(const Dragged& s, const Unsure& unsure) {
+  OnGround t = s;
+  t.evaluate_afresh();
+  const auto sum = [](const std::vector<Vec3>& v) {
+    return std::accumulate(v.begin(), v.end(), Vec3(Vec3::Zero()));
+  };
+  const Vec3 force = sum(t.contacts.normal_force);
+  const double stored = t.energy(), more = std::abs(s.energy() - stored),
+               off = (sum(s.contacts.normal_force) - force).norm();
+  if (!(more <= unsure.energy * stored)) return {"dragged, against afresh: energy", more / stored};
+  if (s.materials(0, 0).damping == 0 && !(off <= unsure.force * force.norm()))
+    return {"dragged, against afresh: force", off / force.norm()};
+  return {};
+}
+
+// With friction and damping, step by step: balance, Coulomb's bound, the normal forces of contacts
+// without a past and, on flat surfaces, what one quad answers to the same drag.
 Fault judge_drag(const Case& c, const Drag& d) {
   Dragged s(c, c.ground, d), plain(c, c.ground.bent ? c.ground : one_quad(c), d);
   const double start = s.bodies.force[0].norm();
@@ -200,16 +218,21 @@ Fault judge_drag(const Case& c, const Drag& d) {
                    size = s.contacts.friction[i].norm();
       if (!(size <= most * (1 + 1e-12))) return {"friction beyond Coulomb's", size / most - 1};
     }
-    if (c.ground.bent) continue;
-    const Answer same = plain.step(d, k, jolts);
-    if (!(same.force.norm() > .01 * start)) continue;  // it comes off: less deep than it was laid
     level += d.ground[k];
+    const Answer same = c.ground.bent ? found : plain.step(d, k, jolts);
+    if (!(same.force.norm() > .01 * start)) continue;  // it comes off: less deep than it was laid
+    if (c.ground.bent) {
+      const Unsure unsure(c, s.part(), Section({}), false);
+      if (const Fault f = judge_normals(s, kDragged * unsure); f.what) return f;
+      continue;
+    }
     const Mat3 down = c.ground.R.transpose();
     const OnLevel there{s.part(), down * s.bodies.R[0], down * (s.bodies.x[0] - level)};
     const Unsure unsure(c, s.part(), Section(cross_section(there)), false);
     if (const Fault f = compare(c, found, same, kDragged * unsure, "dragged, against one quad");
         f.what)
       return f;
+    if (const Fault f = judge_normals(s, kDragged * unsure); f.what) return f;
   }
   return {};
 }
