@@ -22,11 +22,14 @@ Spread spread(const std::vector<double>& values) {
 
 LibraryReport library_report(const std::vector<GrainShape>& shapes) {
   LibraryReport r;
-  r.indices = library_indices(shapes);
+  std::vector<ShapeIndices> indices;
+  for (const GrainShape& shape : shapes) indices.push_back(shape_indices(shape.body));
+  r.indices = library_indices(shapes, indices);
   r.shapes = static_cast<int>(shapes.size());
   std::vector<double> elongation, flatness, sphericity, angularity, faces, solidity;
-  for (const GrainShape& shape : shapes) {
-    const ShapeIndices s = shape_indices(shape.body);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const GrainShape& shape = shapes[k];
+    const ShapeIndices& s = indices[k];
     elongation.push_back(s.elongation);
     flatness.push_back(s.flatness);
     sphericity.push_back(s.sphericity);

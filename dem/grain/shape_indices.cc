@@ -32,6 +32,39 @@ void for_edges(const Polyhedron& body, const std::vector<Vec3>& areas, Of of) {
          areas[owner.at({edge.second, edge.first})]);
 }
 
+// An edge and the directions in which the body ends at it, those between the normals of its faces:
+// d . to_a >= 0 and d . to_b >= 0.
+struct EdgeCone {
+  Vec3 along, to_a, to_b;
+  // But for rounding, which may let in more.
+  bool holds(const Vec3& d, double size2) const {
+    const auto within = [&](double x) { return x >= 0 || x * x <= 1e-18 * size2; };
+    return within(d.dot(to_a)) && within(d.dot(to_b));
+  }
+};
+
+// The least width lies along a face normal or across two edges at which the body ends in opposite
+// directions.
+double least_width_across_edges(const Polyhedron& body, const std::vector<Vec3>& areas) {
+  std::vector<EdgeCone> edges;
+  for_edges(body, areas, [&](const Vec3& e, const Vec3& area_a, const Vec3& area_b) {
+    const Vec3 a = area_a.normalized(), b = area_b.normalized();
+    const EdgeCone cone{e.normalized(), a - a.dot(b) * b, b - a.dot(b) * a};
+    if (cone.to_a.norm() > 1e-9) edges.push_back(cone);  // else it lies within a face
+  });
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < edges.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      const Vec3 d = edges[i].along.cross(edges[j].along);
+      const double size2 = d.squaredNorm();
+      if (!(size2 > 1e-18)) continue;
+      if ((edges[i].holds(d, size2) && edges[j].holds(-d, size2)) ||
+          (edges[i].holds(-d, size2) && edges[j].holds(d, size2)))
+        least = std::min(least, width_along(body, d.normalized()));
+    }
+  return least;
+}
+
 }  // namespace
 
 double angularity(const Polyhedron& body) {
@@ -67,27 +100,21 @@ ShapeIndices shape_indices(const Polyhedron& body) {
   s.flatness = s.shortest / s.intermediate;
 
   s.angularity = angularity(body);
-  std::vector<Vec3> edges;
-  for_edges(body, areas,
-            [&](const Vec3& e, const Vec3&, const Vec3&) { edges.push_back(e.normalized()); });
-  // The least width lies along a face normal or along the normal of two edges.
-  for (size_t i = 0; i < edges.size(); ++i)
-    for (size_t j = 0; j < i; ++j) {
-      const Vec3 d = edges[i].cross(edges[j]);
-      if (d.norm() > 1e-9) s.width = std::min(s.width, width_along(body, d.normalized()));
-    }
+  s.width = std::min(s.width, least_width_across_edges(body, areas));
   for (const Vec3& p : body.vertices)
     for (const Vec3& q : body.vertices) s.diameter = std::max(s.diameter, (p - q).norm());
   s.sphericity = std::cbrt(36 * M_PI * volume * volume) / s.surface;
   return s;
 }
 
-LibraryIndices library_indices(const std::vector<GrainShape>& shapes) {
+LibraryIndices library_indices(const std::vector<GrainShape>& shapes,
+                               const std::vector<ShapeIndices>& indices) {
   LibraryIndices r;
   double total = 0;
-  for (const GrainShape& shape : shapes) {
+  for (size_t k = 0; k < shapes.size(); ++k) {
+    const GrainShape& shape = shapes[k];
+    const ShapeIndices& s = indices.at(k);
     if (!(shape.sieve_size > 0)) throw InputError("shape indices: a grain is not sized");
-    const ShapeIndices s = shape_indices(shape.body);
     total += shape.volume;
     if (s.width < 0.6 * shape.sieve_size) r.flaky += shape.volume;
     if (s.diameter > 1.8 * shape.sieve_size) r.elongated += shape.volume;

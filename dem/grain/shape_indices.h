@@ -35,7 +35,8 @@ struct LibraryIndices {
 };
 
 /// The standards compare with the mean size of the grain's sieve class; here it is the grain's own
-/// sieve size, which a normalised library knows. Throws InputError: empty, or a shape is not sized.
-LibraryIndices library_indices(const std::vector<GrainShape>&);
+/// sieve size, which a normalised library knows. Of the shapes and the indices of each. Throws
+/// InputError: empty, or a shape is not sized.
+LibraryIndices library_indices(const std::vector<GrainShape>&, const std::vector<ShapeIndices>&);
 
 }  // namespace trackbed::dem
