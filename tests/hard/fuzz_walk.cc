@@ -2,8 +2,9 @@
 // led about it, into contact and out again, over faces, edges and corners, by steps of 1e-5 to a
 // tenth of its size. Contacts start each step from what they were in the last one: the nearest
 // features, the separating axis, how long a pair that is apart may sleep. After every step all must
-// be as if found afresh: which parts touch, force, torque and energy. An offender is kept as a scene,
-// DIR/*.prm, as the bodies stood. Exit 1 if there is one.
+// be as if found afresh: which parts touch, force, torque and energy. Left out is where cores of
+// dilated bodies overlap, as the way out is the nearest to the last one. An offender is kept as a
+// scene, DIR/*.prm, as the bodies stood. Exit 1 if there is one, or if nothing touched.
 #include <cmath>
 #include <cstdio>
 
@@ -171,7 +172,7 @@ int fuzz(const FuzzOrder& order) {
   std::printf("seed %llu: %ld pairs, %ld steps in contact, %d offenders, %.0f s\n",
               static_cast<unsigned long long>(order.seed), pairs, touching, offenders,
               order.elapsed());
-  return offenders > 0;
+  return offenders > 0 || touching == 0;
 }
 
 }  // namespace
